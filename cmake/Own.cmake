@@ -1,0 +1,69 @@
+# How clothlab's own targets are made: C++20, warnings, sanitizers, sources by pattern.
+
+# Sets OUT to the sources that match PATTERN...; `folder/**.cpp` also looks in the folders below, `folder/*.cpp` does
+# not. Files under the folder named after EXCLUDE are left out. New files are found by the next build.
+function(clothlab_glob out)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "EXCLUDE" "")
+    set(sources)
+    foreach(pattern IN LISTS arg_UNPARSED_ARGUMENTS)
+        if(pattern MATCHES "^(.*)\\*\\*(.*)$")
+            file(GLOB_RECURSE found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${CMAKE_MATCH_1}*${CMAKE_MATCH_2})
+        else()
+            file(GLOB found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${pattern})
+        endif()
+        list(APPEND sources ${found})
+    endforeach()
+    if(arg_EXCLUDE)
+        list(FILTER sources EXCLUDE REGEX "^${CMAKE_SOURCE_DIR}/${arg_EXCLUDE}")
+    endif()
+    if(NOT sources) # a layer that has only headers so far
+        file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/empty.cpp CONTENT "")
+        set(sources ${CMAKE_BINARY_DIR}/empty.cpp)
+    endif()
+    set(${out} ${sources} PARENT_SCOPE)
+endfunction()
+
+function(clothlab_own target)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+    target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR}/src)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow)
+    # GCC 12 takes std::string's operator+ for an overlapping copy (its bug 105651).
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+    if(CLOTHLAB_WERROR)
+        target_compile_options(${target} PRIVATE -Werror)
+    endif()
+    # The standard library's own checks (indices, empty optionals) wherever speed is not the point.
+    target_compile_definitions(${target} PRIVATE $<$<NOT:$<CONFIG:Release,MinSizeRel>>:_GLIBCXX_ASSERTIONS>)
+    if(CLOTHLAB_SANITIZE)
+        target_compile_options(${target} PRIVATE -fsanitize=${CLOTHLAB_SANITIZE} -fno-omit-frame-pointer)
+        # GCC's flow analysis reports false positives in instrumented code.
+        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+        target_link_options(${target} PUBLIC -fsanitize=${CLOTHLAB_SANITIZE})
+    endif()
+endfunction()
+
+function(clothlab_library target) # PATTERN... [EXCLUDE FOLDER]
+    clothlab_glob(sources ${ARGN})
+    add_library(${target} STATIC ${sources})
+    clothlab_own(${target})
+endfunction()
+
+function(clothlab_executable target) # PATTERN...
+    clothlab_glob(sources ${ARGN})
+    if(CLOTHLAB_GUI AND CLOTHLAB_SANITIZE MATCHES address)
+        list(APPEND sources ${CMAKE_SOURCE_DIR}/cmake/keep_libraries_loaded.cpp)
+    endif()
+    add_executable(${target} ${sources})
+    clothlab_own(${target})
+endfunction()
+
+# A test binary: one ctest entry per Catch2 test case, found when ctest runs.
+function(clothlab_tests target) # PATTERN...
+    clothlab_executable(${target} ${ARGN})
+    target_link_libraries(${target} PRIVATE Catch2::Catch2WithMain clothlab_exact_float clothlab_data_dir)
+    target_compile_definitions(${target} PRIVATE CLOTHLAB_TEST_BINARY="$<TARGET_FILE:clothlab>")
+    target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+    add_dependencies(${target} clothlab) # some tests run it
+    catch_discover_tests(${target} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+endfunction()

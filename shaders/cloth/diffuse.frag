@@ -1,0 +1,10 @@
+#version 330 core
+// Matt cloth under a point light, each side in its own colour: kd I / r^2 max(0, n.l), with ambient and fill light.
+#include "common/frame.glsl"
+#include "common/cloth.glsl"
+#include "common/lighting.glsl"
+
+void main() {
+    vec3 n = seen_normal();
+    pixel = vec4(seen_colour() * all_light(world_position, n), 1.0);
+}

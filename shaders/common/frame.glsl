@@ -1,0 +1,17 @@
+// What all shaders of a picture share; filled in by src/render/renderer.cpp.
+layout(std140) uniform Frame {
+    mat4 view;          // world to camera
+    mat4 projection;    // camera to clip space
+    vec4 eye;           // xyz: m
+    vec4 viewport;      // width, height in px, and their inverses
+    vec4 light;         // xyz: m; w: intensity, as it arrives at 1 m
+    vec4 ambient;       // x: light from everywhere, y: from over the left shoulder
+    vec4 cloth_depth;   // x, y: where the cloth begins and ends, as distance from the eye in m
+} frame;
+
+// A point's place in the picture, with its depth moved by a share of its distance: below 1 is nearer to the eye.
+vec4 to_clip(vec3 world, float depth) {
+    vec4 camera = frame.view * vec4(world, 1.0);
+    camera.xyz *= depth;
+    return frame.projection * camera;
+}

@@ -1,0 +1,272 @@
+#include "app/core/simulation_thread.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "sim/simulation.h"
+
+namespace clothlab::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+double seconds(Clock::duration d) { return Seconds(d).count(); }
+
+/// A slow frame shows its progress this often; a fast one is not shown more often than this.
+constexpr double publish_interval = 1.0 / 120;
+/// Lateness that playing does not try to make up for.
+constexpr double forgiven = 0.1;
+/// Over which the real-time factor is measured.
+constexpr double factor_window = 0.5;
+
+}  // namespace
+
+/// What only the thread itself touches.
+struct SimulationThread::Worker {
+    std::unique_ptr<sim::Simulation> simulation;
+    std::uint64_t run = 0;
+    std::string error;
+    bool playing = false;
+    double speed = 1;
+    long long steps_to_take = 0;
+    std::uint64_t frames_to_take = 0;
+    bool in_frame = false;  ///< playing has begun a frame that it is to complete
+    bool dirty = true;      ///< something changed since the last publication
+    double real_time_factor = 0;
+
+    // Pace: where simulated and wall time were when playing, speed or run last changed.
+    Clock::time_point pace_wall, factor_wall;
+    double pace_time = 0, factor_time = 0;
+
+    Clock::time_point published_at;
+    sim::StageSeconds published_seconds{};
+    std::uint64_t published_steps = 0;
+
+    void start(const sim::Description& description) {
+        try {
+            auto next = sim::Simulation::create(description);
+            next->time_stages(true);
+            simulation = std::move(next);
+            ++run;
+            error.clear();
+            published_seconds = {};
+            published_steps = 0;
+            steps_to_take = 0;
+            frames_to_take = 0;
+            in_frame = false;
+        } catch (const std::exception& e) {
+            error = e.what();
+        }
+        restart_pace();
+        dirty = true;
+    }
+
+    void change(const sim::Description& description) {
+        if (!simulation || !can_change_live(simulation->description(), description)) return start(description);
+        try {
+            simulation->change(description);
+            error.clear();
+        } catch (const std::exception& e) {
+            error = e.what();
+        }
+        restart_pace();
+        dirty = true;
+    }
+
+    void restart_pace() {
+        pace_wall = factor_wall = Clock::now();
+        pace_time = factor_time = simulation ? simulation->time() : 0;
+        real_time_factor = 0;
+    }
+
+    /// When the next frame is due.
+    Clock::time_point due() const {
+        const double ahead = (simulation->time() - pace_time) / speed;
+        return pace_wall + std::chrono::duration_cast<Clock::duration>(Seconds(std::min(ahead, 1e6)));
+    }
+
+    /// Takes one step if there is anything to do now; otherwise says until when there is not.
+    bool work(std::optional<Clock::time_point>& wait_until) {
+        if (!simulation) return false;
+        if (steps_to_take > 0) {
+            take_step();
+            --steps_to_take;
+            return true;
+        }
+        if (frames_to_take > 0) {
+            const std::uint64_t frame = simulation->frame();
+            take_step();
+            if (simulation->frame() != frame) --frames_to_take;
+            return true;
+        }
+        if (!playing) return false;
+        if (!in_frame) {
+            const Clock::time_point now = Clock::now(), when = due();
+            if (now < when) {
+                wait_until = when;
+                return false;
+            }
+            if (seconds(now - when) > forgiven) {
+                pace_wall = now;
+                pace_time = simulation->time();
+            }
+        }
+        const std::uint64_t frame = simulation->frame();
+        take_step();
+        in_frame = simulation->frame() == frame;
+        measure_factor();
+        return true;
+    }
+
+    void take_step() {
+        simulation->step();
+        dirty = true;
+    }
+
+    void measure_factor() {
+        const double wall = seconds(Clock::now() - factor_wall);
+        if (wall < factor_window) return;
+        real_time_factor = (simulation->time() - factor_time) / wall;
+        factor_wall = Clock::now();
+        factor_time = simulation->time();
+    }
+
+    bool idle() const { return !playing && steps_to_take == 0 && frames_to_take == 0; }
+
+    /// Whether the state as it is now is worth showing.
+    bool worth_publishing() const {
+        if (!dirty) return false;
+        return idle() || seconds(Clock::now() - published_at) >= publish_interval;
+    }
+
+    std::shared_ptr<const sim::Snapshot> snapshot() {
+        if (!simulation) return nullptr;
+        auto s = std::make_shared<sim::Snapshot>();
+        simulation->capture(*s);
+        const auto steps = static_cast<double>(simulation->steps() - published_steps);
+        for (std::size_t i = 0; i < s->seconds_per_step.size(); ++i)
+            s->seconds_per_step[i] =
+                steps > 0 ? (simulation->stage_seconds()[i] - published_seconds[i]) / steps : 0;
+        published_seconds = simulation->stage_seconds();
+        published_steps = simulation->steps();
+        published_at = Clock::now();
+        dirty = false;
+        if (s->diagnostics.status == sim::Status::diverged) {  // nothing to see from here on
+            playing = in_frame = false;
+            steps_to_take = 0;
+            frames_to_take = 0;
+        }
+        return s;
+    }
+};
+
+SimulationThread::SimulationThread() : thread_([this] { run(); }) {}
+
+SimulationThread::~SimulationThread() {
+    {
+        const std::lock_guard lock(mutex_);
+        quit_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+}
+
+void SimulationThread::send(Command command) {
+    {
+        const std::lock_guard lock(mutex_);
+        commands_.push_back(std::move(command));
+    }
+    wake_.notify_one();
+}
+
+void SimulationThread::start(const sim::Description& description) {
+    send([description](Worker& w) { w.start(description); });
+}
+
+void SimulationThread::change(const sim::Description& description) {
+    send([description](Worker& w) { w.change(description); });
+}
+
+void SimulationThread::play(bool on) {
+    send([on](Worker& w) {
+        w.playing = on;
+        w.in_frame = false;
+        w.steps_to_take = 0;
+        w.frames_to_take = 0;
+        w.restart_pace();
+        w.dirty = true;
+    });
+}
+
+void SimulationThread::step(int substeps) {
+    send([substeps](Worker& w) {
+        w.playing = w.in_frame = false;
+        w.steps_to_take += substeps;
+        w.dirty = true;
+    });
+}
+
+void SimulationThread::step_frames(int frames) {
+    send([frames](Worker& w) {
+        w.playing = w.in_frame = false;
+        w.frames_to_take += static_cast<std::uint64_t>(std::max(frames, 0));
+        w.dirty = true;
+    });
+}
+
+void SimulationThread::set_speed(double speed) {
+    send([speed](Worker& w) {
+        w.speed = speed;
+        w.restart_pace();
+    });
+}
+
+Published SimulationThread::latest() const {
+    const std::lock_guard lock(mutex_);
+    return published_;
+}
+
+void SimulationThread::finish() {
+    std::unique_lock lock(mutex_);
+    idle_.wait(lock, [this] { return commands_.empty() && !busy_; });
+}
+
+void SimulationThread::run() {
+    Worker worker;
+    worker.restart_pace();
+    std::deque<Command> commands;
+    for (;;) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (quit_) return;
+            commands.swap(commands_);
+            busy_ = true;
+        }
+        for (const Command& command : commands) command(worker);
+        commands.clear();
+
+        std::optional<Clock::time_point> wait_until;
+        const bool worked = worker.work(wait_until);
+        if (worker.worth_publishing()) {
+            auto snapshot = worker.snapshot();
+            const std::lock_guard lock(mutex_);
+            published_ = {std::move(snapshot), worker.run, worker.playing, worker.real_time_factor, worker.error};
+        }
+        if (worked) continue;
+
+        std::unique_lock lock(mutex_);
+        busy_ = false;
+        idle_.notify_all();
+        const auto called = [this] { return quit_ || !commands_.empty(); };
+        if (wait_until)
+            wake_.wait_until(lock, *wait_until, called);
+        else
+            wake_.wait(lock, called);
+    }
+}
+
+}  // namespace clothlab::app

@@ -1,0 +1,68 @@
+// The simulation in a thread of its own. The window hands over what the user wants and takes the newest snapshot; neither
+// call ever waits for a step.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "sim/description.h"
+#include "sim/snapshot.h"
+
+namespace clothlab::app {
+
+/// What the thread has to show.
+struct Published {
+    std::shared_ptr<const sim::Snapshot> snapshot;  ///< none before the first scene has been built
+    std::uint64_t run = 0;                          ///< counts the starts: which start() the snapshot belongs to
+    bool playing = false;
+    double real_time_factor = 0;  ///< simulated seconds per second, over the last half second of playing; 0 when unknown
+    std::string error;            ///< why the last start or change was refused; empty when it was not
+};
+
+class SimulationThread {
+public:
+    SimulationThread();
+    /// Ends after the step under way.
+    ~SimulationThread();
+    SimulationThread(const SimulationThread&) = delete;
+    SimulationThread& operator=(const SimulationThread&) = delete;
+
+    /// Starts a run of a description at time 0, paused or playing as before. A description without meaning is refused
+    /// (Published::error) and the run under way goes on.
+    void start(const sim::Description& description);
+    /// Changes the parameters of the run between two steps; where can_change_live says no, starts anew.
+    void change(const sim::Description& description);
+
+    void play(bool on);
+    /// Pauses and takes this many steps, or goes to the end of this many frames.
+    void step(int substeps);
+    void step_frames(int frames);
+    /// Simulated seconds per second that playing aims at; above 0.
+    void set_speed(double speed);
+
+    Published latest() const;
+    /// Waits until all that was asked for so far has been done (steps taken, scenes built): for tests and for pictures
+    /// without a display, not for the window.
+    void finish();
+
+private:
+    struct Worker;
+    using Command = std::function<void(Worker&)>;
+    void send(Command command);
+    void run();
+
+    mutable std::mutex mutex_;  ///< held for moments only, never during a step
+    std::condition_variable wake_, idle_;
+    std::deque<Command> commands_;
+    Published published_;
+    bool quit_ = false, busy_ = false;
+    std::thread thread_;
+};
+
+}  // namespace clothlab::app

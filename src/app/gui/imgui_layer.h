@@ -1,0 +1,43 @@
+// Dear ImGui on a window: context, fonts, theme, layout file, and one frame of it.
+#pragma once
+
+#include <filesystem>
+
+#include "app/window.h"
+
+struct ImGuiContext;
+
+namespace clothlab::app {
+
+class ImGuiLayer {
+public:
+    /// `layout` is where the user's layout is kept: loaded when it is there, else the default of `default_layout`; saved
+    /// when it changes. An empty path keeps none. `scale` overrides the display's when above 0.
+    ImGuiLayer(Window& window, std::filesystem::path layout, std::filesystem::path default_layout, float scale = 0);
+    ~ImGuiLayer();
+    ImGuiLayer(const ImGuiLayer&) = delete;
+    ImGuiLayer& operator=(const ImGuiLayer&) = delete;
+
+    void begin_frame();
+    /// Draws the frame into a framebuffer object of the window's size (0: the window itself).
+    void end_frame(unsigned framebuffer);
+    /// Back to the default layout with the next frame.
+    void reset_layout() { reset_layout_ = true; }
+
+    ImGuiContext* context() const { return context_; }
+
+private:
+    void load_layout(const std::filesystem::path& file);
+    void save_layout_if_changed();
+
+    Window& window_;
+    std::filesystem::path layout_, default_layout_;
+    ImGuiContext* context_ = nullptr;
+    float forced_scale_, scale_ = 0;
+    bool reset_layout_ = false;
+};
+
+/// $XDG_CONFIG_HOME/clothlab/imgui.ini or ~/.config/clothlab/imgui.ini; empty when there is no home.
+std::filesystem::path user_layout_file();
+
+}  // namespace clothlab::app

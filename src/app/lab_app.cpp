@@ -1,0 +1,256 @@
+#include "app/lab_app.h"
+
+#include <glad/gl.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <type_traits>
+
+#include "app/core/data_folder.h"
+#include "app/gui/file_dialog.h"
+#include "app/scene_view.h"
+#include "scene/io.h"
+
+namespace clothlab::app {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path layout_file(const LabOptions& options) { return options.keep_layout ? user_layout_file() : fs::path(); }
+
+std::vector<ui::SceneEntry> scene_entries() {
+    std::vector<ui::SceneEntry> entries;
+    for (const fs::path& file : shipped_scenes()) {
+        try {
+            const scene::Scene scene = scene::load_scene(file);
+            entries.push_back({scene.name, scene.description, file});
+        } catch (const scene::SceneError& e) {
+            entries.push_back({file.stem().string(), e.what(), file});
+        }
+    }
+    return entries;
+}
+
+}  // namespace
+
+LabApp::LabApp(const LabOptions& options, scene::Scene scene, fs::path file)
+    : window_(options.window, options.width, options.height, "clothlab"),
+      imgui_(window_, layout_file(options), data_path("imgui.ini"), options.scale),
+      renderer_(data_path("shaders")) {
+    if (options.window == Window::Kind::offscreen) whole_.emplace(options.width, options.height, 1);
+    lab_.open.fill(true);
+    lab_.scenes = scene_entries();
+    lab_.shaders = shipped_shaders();
+    for (std::size_t i = 0; i < lab_.spring_colours.size(); ++i) {
+        const glm::vec3& c = render::spring_colours[i];
+        lab_.spring_colours[i] = {c.r, c.g, c.b};
+    }
+    lab_.has_file_dialogs = options.window == Window::Kind::desktop && FileDialog::available();
+    window_.on_drop = [this](const std::vector<std::string>& files) {
+        if (!files.empty()) lab_.ask(ui::OpenScene{files.front()});
+    };
+    set_scene(std::move(scene), std::move(file));
+}
+
+LabApp::~LabApp() = default;
+
+void LabApp::run() {
+    // Paused and untouched, the lab rests: a few frames a second keep its state fresh.
+    for (;;) {
+        const bool busy = lab_.playing || ImGui::IsAnyItemActive() || dialog_;
+        if (!frame(busy ? 0 : 0.05)) return;
+    }
+}
+
+bool LabApp::frame(double wait_seconds) {
+    window_.poll(wait_seconds);
+    if (window_.should_close() || quit_) return false;
+    if (window_.minimised()) {
+        window_.poll(0.05);
+        return true;
+    }
+    poll_file_dialog();
+    take_published();
+    lab_.can_undo = history_.can_undo();
+    lab_.can_redo = history_.can_redo();
+    imgui_.begin_frame();
+    ui::draw(lab_);
+    carry_out_requests();
+    pass_on_edits();
+    draw_viewport();
+    unsigned framebuffer = 0;
+    if (whole_) {
+        whole_->bind();
+        GLint bound = 0;
+        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+        glDisable(GL_FRAMEBUFFER_SRGB);  // the interface's colours are sRGB already
+        framebuffer = static_cast<unsigned>(bound);
+    }
+    imgui_.end_frame(framebuffer);
+    if (whole_) whole_->resolve();
+    window_.swap();
+    set_title();
+    return !quit_;
+}
+
+void LabApp::take_published() {
+    const Published now = simulation_.latest();
+    lab_.playing = now.playing;
+    lab_.real_time_factor = now.real_time_factor;
+    if (now.error != refusal_) {
+        refusal_ = now.error;
+        if (!refusal_.empty()) say(true, refusal_);
+    }
+    if (now.snapshot) lab_.snapshot = now.snapshot;
+    if (!lab_.snapshot) return;
+    const sim::Diagnostics& d = lab_.snapshot->diagnostics;
+    const bool diverged = d.status == sim::Status::diverged;
+    if (diverged && !told_divergence_) say(true, "The simulation blew up and was paused: " + d.cause + ".");
+    told_divergence_ = diverged;
+}
+
+void LabApp::set_scene(scene::Scene scene, fs::path file) {
+    if (!scene.camera) scene.camera = scene::fitting_camera(scene.simulation);
+    lab_.scene = lab_.loaded = scene;
+    lab_.file = std::move(file);
+    lab_.pending.reset();
+    history_.restart(scene);
+    passed_on_ = scene.simulation;
+    simulation_.start(passed_on_);
+}
+
+bool LabApp::open(const fs::path& file) {
+    try {
+        set_scene(scene::load_scene(file), file);
+        return true;
+    } catch (const std::exception& e) {
+        say(true, e.what());
+        return false;
+    }
+}
+
+void LabApp::pass_on_edits() {
+    if (lab_.scene.simulation != passed_on_) {
+        try {
+            scene::check(lab_.scene, "This change cannot be made");
+            passed_on_ = lab_.scene.simulation;
+            simulation_.change(passed_on_);
+        } catch (const scene::SceneError& e) {
+            lab_.scene.simulation = passed_on_;
+            say(true, e.what());
+        }
+    }
+    if (!ImGui::IsAnyItemActive()) history_.settle(lab_.scene);
+}
+
+void LabApp::carry_out_requests() {
+    std::vector<ui::Request> requests;
+    requests.swap(lab_.requests);
+    const auto go_to = [this](std::optional<scene::Scene> scene) {
+        if (!scene) return;
+        scene->camera = lab_.scene.camera;
+        lab_.scene = std::move(*scene);
+    };
+    for (ui::Request& request : requests) {
+        std::visit(
+            [&](auto& r) {
+                using R = std::remove_reference_t<decltype(r)>;
+                if constexpr (std::is_same_v<R, ui::OpenScene>) open(r.file);
+                else if constexpr (std::is_same_v<R, ui::SaveScene>) save(r.file);
+                else if constexpr (std::is_same_v<R, ui::BrowseForScene>)
+                    dialog_ = std::make_unique<FileDialog>(
+                        r.save ? FileDialog::Purpose::save : FileDialog::Purpose::open, lab_.file);
+                else if constexpr (std::is_same_v<R, ui::Screenshot>) screenshot();
+                else if constexpr (std::is_same_v<R, ui::Play>) simulation_.play(r.on);
+                else if constexpr (std::is_same_v<R, ui::StepFrame>) simulation_.step_frames(1);
+                else if constexpr (std::is_same_v<R, ui::StepSubstep>) simulation_.step(1);
+                else if constexpr (std::is_same_v<R, ui::Restart>) simulation_.start(lab_.scene.simulation);
+                else if constexpr (std::is_same_v<R, ui::SetSpeed>) {
+                    lab_.speed = r.speed;
+                    simulation_.set_speed(r.speed);
+                } else if constexpr (std::is_same_v<R, ui::Undo>) go_to(history_.undo());
+                else if constexpr (std::is_same_v<R, ui::Redo>) go_to(history_.redo());
+                else if constexpr (std::is_same_v<R, ui::ResetLayout>) {
+                    lab_.open.fill(true);
+                    imgui_.reset_layout();
+                } else {
+                    static_assert(std::is_same_v<R, ui::Quit>);
+                    quit_ = true;
+                }
+            },
+            request);
+    }
+}
+
+void LabApp::draw_viewport() {
+    if (lab_.viewport_width < 1 || lab_.viewport_height < 1) return;  // the panel has not been drawn yet
+    Shown now{lab_.snapshot, lab_.scene, lab_.viewport_width, lab_.viewport_height};
+    if (now == shown_ && lab_.viewport_texture != 0) return;
+    viewport_.resize(now.width, now.height);
+    try {
+        draw_report_ = renderer_.draw(to_render(lab_.scene, lab_.snapshot.get()), viewport_);
+    } catch (const render::ShaderError& e) {
+        say(true, e.what());
+        lab_.scene.look.shader = shown_.scene.look.shader.empty() ? "diffuse" : shown_.scene.look.shader;
+        return;
+    }
+    shown_ = std::move(now);
+    lab_.viewport_texture = viewport_.texture();
+}
+
+void LabApp::save(const fs::path& file) {
+    try {
+        scene::save_scene(lab_.scene, file);
+        lab_.loaded = lab_.scene;
+        lab_.file = file;
+        say(false, "Saved as " + file.string());
+    } catch (const scene::SceneError& e) {
+        say(true, e.what());
+    }
+}
+
+void LabApp::screenshot() {
+    for (int i = 1; i < 10000; ++i) {
+        char name[40];
+        std::snprintf(name, sizeof name, "clothlab-%04d.png", i);
+        std::error_code error;
+        const fs::path file = fs::current_path(error) / name;
+        if (fs::exists(file, error)) continue;
+        try {
+            render::write_png(viewport_.read(), file);
+            say(false, "The viewport was saved as " + file.string());
+        } catch (const std::exception& e) {
+            say(true, e.what());
+        }
+        return;
+    }
+}
+
+void LabApp::poll_file_dialog() {
+    if (!dialog_ || !dialog_->ready()) return;
+    const auto purpose = dialog_->purpose();
+    const auto file = dialog_->result();
+    dialog_.reset();
+    if (!file) return;
+    if (purpose == FileDialog::Purpose::open)
+        open(*file);
+    else
+        save(file->has_extension() ? *file : fs::path(file->string() + ".json"));
+}
+
+void LabApp::set_title() {
+    window_.set_title((lab_.scene.name.empty() ? "Untitled" : lab_.scene.name) + (ui::modified(lab_) ? " *" : "") +
+                      " - clothlab");
+}
+
+void LabApp::show_frame(int frame_number) {
+    simulation_.finish();
+    const Published now = simulation_.latest();
+    const auto at = now.snapshot ? static_cast<int>(now.snapshot->frame) : 0;
+    if (frame_number > at) simulation_.step_frames(frame_number - at);
+    simulation_.finish();
+    // Panels take a few frames to settle: docking, tables and scroll bars learn their sizes by being drawn.
+    for (int i = 0; i < 4; ++i) frame();
+}
+
+}  // namespace clothlab::app

@@ -1,0 +1,92 @@
+// The lab: owns window, simulation thread, renderer and panels, and carries out what the panels ask for.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/core/history.h"
+#include "app/core/simulation_thread.h"
+#include "app/gui/imgui_layer.h"
+#include "app/window.h"
+#include "render/renderer.h"
+#include "ui/lab.h"
+
+namespace clothlab::app {
+
+class FileDialog;
+
+struct LabOptions {
+    Window::Kind window = Window::Kind::desktop;
+    int width = 1440, height = 900;  ///< of the window, in screen coordinates
+    bool keep_layout = true;         ///< load and save the user's layout; otherwise the default one is used
+    float scale = 0;                 ///< of the interface; 0: as the display says
+};
+
+class LabApp {
+public:
+    /// Opens the lab on a scene. Throws NoDisplay or std::runtime_error when there is no window to be had.
+    LabApp(const LabOptions& options, scene::Scene scene, std::filesystem::path file);
+    ~LabApp();
+
+    /// Runs until the user closes the window.
+    void run();
+
+    /// One frame: events, panels, what they asked for, picture. False when the lab is to be closed.
+    bool frame(double wait_seconds = 0);
+
+    /// Steps the simulation to a frame and shows it, without haste: for pictures.
+    void show_frame(int frame);
+    /// The whole window as it was last drawn; only offscreen, where there is no screen to look at.
+    render::Image picture() const { return whole_.value().read(); }
+    /// The viewport as it was last drawn.
+    render::Image viewport_picture() const { return viewport_.read(); }
+
+    /// Opens a scene file. One that is wrong leaves everything as it was, and the lab says why; then false.
+    bool open(const std::filesystem::path& file);
+
+    ui::Lab& lab() { return lab_; }
+    const render::DrawReport& draw_report() const { return draw_report_; }
+    SimulationThread& simulation() { return simulation_; }
+    ImGuiContext* imgui() const { return imgui_.context(); }
+
+private:
+    void set_scene(scene::Scene scene, std::filesystem::path file);
+    void take_published();
+    void pass_on_edits();
+    void carry_out_requests();
+    void draw_viewport();
+    void save(const std::filesystem::path& file);
+    void screenshot();
+    void poll_file_dialog();
+    void set_title();
+    void say(bool error, std::string text) { lab_.messages.push_back({error, std::move(text)}); }
+
+    Window window_;
+    ImGuiLayer imgui_;
+    render::Renderer renderer_;
+    render::Target viewport_;
+    std::optional<render::Target> whole_;  ///< the window's picture, where framebuffer 0 holds none
+    SimulationThread simulation_;
+    ui::Lab lab_;
+    History history_;
+    sim::Description passed_on_;    ///< what the simulation thread has been told
+    std::string refusal_;           ///< the simulation's last error that has been shown
+    bool told_divergence_ = false;
+
+    // What the viewport shows; while all of it stays the same, it is not drawn again.
+    struct Shown {
+        std::shared_ptr<const sim::Snapshot> snapshot;
+        scene::Scene scene;
+        int width = 0, height = 0;
+        bool operator==(const Shown&) const = default;
+    };
+    Shown shown_;
+    render::DrawReport draw_report_;
+    std::unique_ptr<FileDialog> dialog_;
+    bool quit_ = false;
+};
+
+}  // namespace clothlab::app

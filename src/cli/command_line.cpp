@@ -1,0 +1,136 @@
+#include "cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "app/core/data_folder.h"
+#include "scene/fields.h"
+#include "scene/io.h"
+
+namespace clothlab::cli {
+namespace {
+
+constexpr int usage_error = 2;
+
+void add_scene(CLI::App& app, SceneArguments& arguments, bool required) {
+    auto* scene = app.add_option("scene", arguments.scene,
+                                 "Scene file, or the name of one that clothlab comes with (clothlab list scenes)");
+    if (required) scene->required();
+    app.add_option("--set", arguments.settings,
+                   "KEY=VALUE: set a parameter of the scene; repeat for more (clothlab list parameters)")
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
+void add_run(CLI::App& app, RunArguments& a, int& status) {
+    auto* run = app.add_subcommand("run", "Simulate a scene without a picture");
+    add_scene(*run, a.scene, true);
+    auto* frames = run->add_option("--frames", a.frames, "Frames to simulate (default: 90)")->check(CLI::NonNegativeNumber);
+    run->add_option("--seconds", a.seconds, "Simulated seconds instead, rounded up to a whole frame")
+        ->check(CLI::NonNegativeNumber)
+        ->excludes(frames);
+    run->add_option("--threads", a.threads,
+                    "Threads the simulation may use; the result is the same for any number (today's methods use one)")
+        ->check(CLI::Range(1, 1024));
+    run->add_option("--csv", a.csv, "Write frame,index,x,y,z to this file, frame 0 included; - is standard output");
+    run->add_option("--every", a.every, "Write only every Nth frame to the CSV file")->check(CLI::PositiveNumber);
+    run->add_option("--obj", a.obj, "Write the final mesh to this OBJ file");
+    run->add_option("--state", a.state, "Write the final state to this file, to be resumed");
+    run->add_option("--resume", a.resume, "Go on from the state in this file, bit for bit");
+    run->add_flag("--hash", a.hash, "Print only the 64-bit hash of the final state");
+    run->add_flag("--json", a.json, "Print the results as one JSON object");
+    run->final_callback([&a, &status] { status = cli::run(a); });
+}
+
+void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiCommands& gui, int& status) {
+    auto* render = app.add_subcommand("render", "Draw a scene into a PNG picture or an MP4 film");
+    add_scene(*render, a.scene, true);
+    render->add_option("--frame", a.frame, "The frame to draw, or the last one of a film (default: 90)")
+        ->check(CLI::NonNegativeNumber);
+    render->add_option("--size", size, "WIDTHxHEIGHT in pixels (default: 1280x720)");
+    render->add_option("--shader", a.shader, "How the cloth is drawn (clothlab list shaders)");
+    render->add_option("--camera", a.camera, "JSON file with the keys of a scene's camera");
+    render->add_flag("--ui", a.ui, "Draw the whole lab, with its panels");
+    render->add_option("-o,--output", a.output, "FILE.png or FILE.mp4")->required();
+    render->final_callback([&] {
+        if (!gui.render) throw std::runtime_error("this clothlab was built without its GUI and cannot draw");
+        char end = 0;
+        if (std::sscanf(size.c_str(), "%dx%d%c", &a.width, &a.height, &end) != 2 || a.width < 1 || a.height < 1 ||
+            a.width > 16384 || a.height > 16384)
+            throw scene::SceneError("--size " + size + ": write WIDTHxHEIGHT, each from 1 to 16384");
+        status = gui.render(a);
+    });
+}
+
+}  // namespace
+
+scene::Scene SceneArguments::load() const {
+    scene::Scene result = scene::load_scene(app::scene_path(scene));
+    for (const std::string& setting : settings) {
+        const std::size_t equals = setting.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw scene::SceneError("--set " + setting + ": write KEY=VALUE");
+        scene::set_parameter(result, std::string_view(setting).substr(0, equals),
+                             std::string_view(setting).substr(equals + 1));
+    }
+    scene::check(result, scene);
+    return result;
+}
+
+int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
+    CLI::App app("clothlab: an interactive laboratory for mass-spring cloth", "clothlab");
+    app.set_version_flag("--version", "clothlab " CLOTHLAB_VERSION);
+    app.footer("Without a subcommand, clothlab opens the lab's window on the scene.");
+    int status = 0;
+
+    LabArguments lab;
+    add_scene(app, lab.scene, false);
+    app.add_option("-f,--file", lab.scene.scene, "The same as naming the scene");
+    app.add_option("-a", lab.latitude_lines, "Latitude lines of drawn spheres")->check(CLI::Range(3, 512));
+    app.add_option("-o", lab.longitude_lines, "Longitude lines of drawn spheres")->check(CLI::Range(3, 512));
+    app.add_option("--picture", lab.picture, "Where to draw the lab when there is no display (default: clothlab.png)");
+
+    RunArguments run;
+    add_run(app, run, status);
+    RenderArguments render;
+    std::string size = "1280x720";
+    add_render(app, render, size, gui, status);
+
+    std::vector<std::string> files;
+    auto* validate_command = app.add_subcommand("validate", "Check scene files and say what is wrong with them");
+    validate_command->add_option("files", files, "Scene files")->required();
+    validate_command->final_callback([&] { status = validate(files); });
+
+    std::string what;
+    bool list_json = false;
+    auto* list_command = app.add_subcommand("list", "List what there is");
+    list_command->add_option("what", what, "integrators, shaders, rules, scenes or parameters")
+        ->required()
+        ->check(CLI::IsMember({"integrators", "shaders", "rules", "scenes", "parameters"}));
+    list_command->add_flag("--json", list_json, "As JSON");
+    list_command->final_callback([&] { status = list(what, list_json); });
+    app.require_subcommand(0, 1);
+
+    try {
+        app.parse(argc, argv);
+        if (app.get_subcommands().empty()) {
+            if (!gui.lab)
+                throw std::runtime_error(
+                    "this clothlab was built without its GUI and has no window; see clothlab --help for what it can do");
+            status = gui.lab(lab);
+        }
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : usage_error;
+    } catch (const scene::SceneError& e) {
+        std::cerr << "clothlab: " << e.what() << "\n";
+        return usage_error;
+    } catch (const std::exception& e) {
+        std::cerr << "clothlab: " << e.what() << "\n";
+        return 1;
+    }
+    std::cout.flush();
+    return status;
+}
+
+}  // namespace clothlab::cli

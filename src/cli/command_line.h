@@ -1,0 +1,60 @@
+// The command line: what it accepts, and what each subcommand does. Results go to standard output, everything else to
+// standard error; exit status 0 is success, 1 a failure of the run, 2 a usage or input error.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace clothlab::cli {
+
+/// A scene and the parameters that the command line sets on top of it.
+struct SceneArguments {
+    std::string scene;
+    std::vector<std::string> settings;  ///< KEY=VALUE
+    /// Reads the scene and applies the settings. Throws scene::SceneError.
+    scene::Scene load() const;
+};
+
+struct LabArguments {
+    SceneArguments scene;
+    int latitude_lines = 0, longitude_lines = 0;  ///< of drawn spheres; 0: as the scene says
+    std::string picture = "clothlab.png";         ///< where the lab draws itself when there is no display
+};
+
+struct RenderArguments {
+    SceneArguments scene;
+    int frame = 90;
+    int width = 1280, height = 720;
+    std::string shader;  ///< empty: as the scene says
+    std::string camera;  ///< file; empty: as the scene says
+    bool ui = false;     ///< the whole lab, not the viewport alone
+    std::string output;  ///< .png or .mp4
+};
+
+struct RunArguments {
+    SceneArguments scene;
+    std::optional<int> frames;
+    std::optional<double> seconds;
+    int threads = 1;
+    std::string csv, obj, state, resume;
+    int every = 1;
+    bool hash = false, json = false;
+};
+
+/// What needs a GUI, given by the program that has one. Each returns the exit status.
+struct GuiCommands {
+    std::function<int(const LabArguments&)> lab;
+    std::function<int(const RenderArguments&)> render;
+};
+
+int run_program(int argc, const char* const* argv, const GuiCommands& gui);
+
+int run(const RunArguments& arguments);
+int validate(const std::vector<std::string>& files);
+int list(const std::string& what, bool json);
+
+}  // namespace clothlab::cli

@@ -1,0 +1,139 @@
+#include "cli/gui/gui_commands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "app/core/data_folder.h"
+#include "app/gui/film.h"
+#include "app/lab_app.h"
+#include "app/scene_view.h"
+#include "scene/io.h"
+#include "sim/simulation.h"
+
+namespace clothlab::cli {
+namespace {
+
+/// What the lab shows when no scene is named.
+constexpr const char* first_scene = "sphere-medium";
+/// Where the cloth of most scenes has come to rest.
+constexpr int draped_frame = 180;
+
+int lab(const LabArguments& given) {
+    LabArguments arguments = given;
+    if (arguments.scene.scene.empty()) arguments.scene.scene = first_scene;
+    scene::Scene scene = arguments.scene.load();
+    if (arguments.latitude_lines > 0) scene.look.sphere_latitude_lines = arguments.latitude_lines;
+    if (arguments.longitude_lines > 0) scene.look.sphere_longitude_lines = arguments.longitude_lines;
+    const auto file = app::scene_path(arguments.scene.scene);
+    try {
+        app::LabApp window({}, scene, file);
+        window.simulation().play(true);
+        window.run();
+        return 0;
+    } catch (const app::NoDisplay&) {
+        std::cerr << "clothlab: there is no display; drawing the lab without one\n";
+    }
+    app::LabOptions options;
+    options.window = app::Window::Kind::offscreen;
+    options.keep_layout = false;
+    app::LabApp picture(options, std::move(scene), file);
+    picture.show_frame(draped_frame);
+    render::write_png(picture.picture(), arguments.picture);
+    std::cout << arguments.picture << "\n";
+    return 0;
+}
+
+/// The frames of a scene as pictures, one after the other: the whole lab, or its viewport alone.
+class Camera {
+public:
+    virtual ~Camera() = default;
+    virtual render::Image picture(int frame) = 0;
+};
+
+class LabCamera final : public Camera {
+public:
+    LabCamera(const RenderArguments& a, scene::Scene scene)
+        : lab_(options(a), std::move(scene), app::scene_path(a.scene.scene)) {}
+    render::Image picture(int frame) override {
+        lab_.show_frame(frame);
+        return lab_.picture();
+    }
+
+private:
+    static app::LabOptions options(const RenderArguments& a) {
+        app::LabOptions options;
+        options.window = app::Window::Kind::offscreen;
+        options.width = a.width;
+        options.height = a.height;
+        options.keep_layout = false;
+        return options;
+    }
+    app::LabApp lab_;
+};
+
+class SceneCamera final : public Camera {
+public:
+    SceneCamera(const RenderArguments& a, scene::Scene scene)
+        : scene_(std::move(scene)),
+          window_(app::Window::Kind::offscreen, a.width, a.height, "clothlab"),
+          renderer_(app::data_path("shaders")),
+          target_(a.width, a.height),
+          simulation_(sim::Simulation::create(scene_.simulation)) {}
+    render::Image picture(int frame) override {
+        while (simulation_->frame() < static_cast<std::uint64_t>(frame)) simulation_->step_frame();
+        simulation_->capture(snapshot_);
+        renderer_.draw(app::to_render(scene_, &snapshot_), target_);
+        return target_.read();
+    }
+
+private:
+    scene::Scene scene_;
+    app::Window window_;
+    render::Renderer renderer_;
+    render::Target target_;
+    std::unique_ptr<sim::Simulation> simulation_;
+    sim::Snapshot snapshot_;
+};
+
+void film(const RenderArguments& a, Camera& camera, double frames_per_second) {
+    // A frame for every thirtieth of a second or so, at the scene's own pace.
+    const int every = std::max(1, static_cast<int>(std::lround(frames_per_second / 30)));
+    app::Film film(a.output, a.width, a.height, frames_per_second / every);
+    for (int frame = 0; frame <= a.frame; frame += every) film.add(camera.picture(frame));
+    film.finish();
+}
+
+int render(const RenderArguments& a) {
+    const std::string extension = std::filesystem::path(a.output).extension().string();
+    if (extension != ".png" && extension != ".mp4")
+        throw scene::SceneError("-o " + a.output + ": write FILE.png for a picture or FILE.mp4 for a film");
+    scene::Scene scene = a.scene.load();
+    if (!a.camera.empty()) scene.camera = scene::read_camera(scene::read_text_file(a.camera), a.camera);
+    if (!a.shader.empty()) scene.look.shader = a.shader;
+    const std::vector<std::string> shaders = app::shipped_shaders();
+    if (std::find(shaders.begin(), shaders.end(), scene.look.shader) == shaders.end()) {
+        std::string names;
+        for (const std::string& name : shaders) names += (names.empty() ? "" : ", ") + name;
+        throw scene::SceneError("there is no shader \"" + scene.look.shader + "\"; there are " + names);
+    }
+    const double frames_per_second = scene.simulation.stepping.frames_per_second;
+    std::unique_ptr<Camera> camera;
+    if (a.ui)
+        camera = std::make_unique<LabCamera>(a, std::move(scene));
+    else
+        camera = std::make_unique<SceneCamera>(a, std::move(scene));
+    if (extension == ".mp4")
+        film(a, *camera, frames_per_second);
+    else
+        ::clothlab::render::write_png(camera->picture(a.frame), a.output);
+    std::cout << a.output << "\n";
+    return 0;
+}
+
+}  // namespace
+
+GuiCommands gui_commands() { return {lab, render}; }
+
+}  // namespace clothlab::cli

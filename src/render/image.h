@@ -1,0 +1,35 @@
+// Pictures in memory: what the renderer reads back, the command line writes as PNG and the tests compare. Needs no GL.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace clothlab::render {
+
+/// 8 bits per channel, sRGB, red green blue alpha, the top row first.
+struct Image {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;
+
+    /// The four channels of a pixel; x from the left, y from the top, both inside the picture.
+    const std::uint8_t* pixel(int x, int y) const {
+        return rgba.data() +
+               4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    }
+    bool operator==(const Image&) const = default;
+};
+
+/// Writes a PNG, whole or not at all. Throws std::runtime_error with the path and the reason when it cannot be written.
+void write_png(const Image& image, const std::filesystem::path& path);
+
+/// Reads a PNG (or another format that stb_image knows), converted to RGBA8. Throws std::runtime_error with the path
+/// and the reason.
+Image read_png(const std::filesystem::path& path);
+
+/// How different two pictures look, 0 (the same) to 1 (black and white): both are averaged down to 64 x 36 cells, and
+/// the absolute differences of red, green and blue averaged. Sizes may differ; an empty picture is black.
+double difference(const Image& a, const Image& b);
+
+} // namespace clothlab::render

@@ -1,0 +1,44 @@
+// A framebuffer of our own to draw into: the viewport panel shows its texture, and without a display it is the picture.
+#pragma once
+
+#include "render/gl.h"
+#include "render/image.h"
+
+namespace clothlab::render {
+
+/// A multisampled colour (sRGB) and depth buffer, and the texture it is resolved into.
+class Target {
+public:
+    /// Sizes in pixels; samples is what is wished for, the driver may have fewer.
+    explicit Target(int width = 1, int height = 1, int samples = 4);
+
+    /// Changes the size; the picture is then undefined until the next draw. Nothing happens when the size is the same;
+    /// sizes below 1 are raised to 1, those above the driver's limit lowered to it. Throws std::runtime_error when the
+    /// driver has not the memory.
+    void resize(int width, int height);
+    int width() const { return width_; }
+    int height() const { return height_; }
+    int samples() const { return samples_; }
+
+    /// The resolved picture, of format RGBA8 that holds sRGB values: shown as it is, no conversion. The bottom row
+    /// first, as OpenGL has it: an ImGui image takes uv (0, 1) to (1, 0). Stays the same texture over resizes.
+    GLuint texture() const { return colour_.id(); }
+
+    /// Directs drawing here and sets the viewport. sRGB conversion on write is switched on until resolve().
+    void bind();
+    /// Resolves the samples into texture() and directs drawing to the framebuffer that was bound before bind().
+    void resolve();
+    /// The resolved picture.
+    Image read() const;
+
+private:
+    void allocate();
+
+    int width_ = 0, height_ = 0, samples_ = 0;
+    GLint previous_ = 0;
+    Renderbuffer samples_colour_, samples_depth_;
+    Texture colour_;
+    Framebuffer multisampled_, resolved_;
+};
+
+} // namespace clothlab::render

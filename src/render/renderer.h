@@ -1,0 +1,72 @@
+// Draws a scene into a target and says what it drew: the picture of the window, the command line and the tests.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/offscreen.h"
+#include "render/options.h"
+#include "render/shader_files.h"
+#include "render/view.h"
+#include "sim/description.h"
+#include "sim/snapshot.h"
+
+namespace clothlab::render {
+
+/// What is to be drawn; it has to live as long as the call of draw().
+struct Scene {
+    const sim::Snapshot* snapshot = nullptr; ///< none: no cloth
+    std::span<const sim::Collider> colliders;
+    std::span<const sim::GridPoint> pinned;
+    View view;
+    Options options;
+};
+
+/// Pixels from the left and the top, max included; empty when max is below min.
+struct PixelBox {
+    int min_x = 0, min_y = 0, max_x = -1, max_y = -1;
+    bool empty() const { return max_x < min_x || max_y < min_y; }
+    int width() const { return empty() ? 0 : max_x - min_x + 1; }
+    int height() const { return empty() ? 0 : max_y - min_y + 1; }
+};
+
+/// What a draw has sent to the screen. Parts of the cloth with non-finite points are left out and not counted.
+struct DrawReport {
+    std::size_t cloth_triangles = 0;
+    std::array<std::size_t, sim::spring_kinds> springs{}; ///< lines drawn, by SpringKind
+    std::size_t spheres = 0, planes = 0, pins = 0;
+    int width = 0, height = 0;           ///< px
+    PixelBox cloth_box;                  ///< around the points inside the view
+    std::size_t points_in_view = 0;      ///< cloth points inside the view, hidden ones too
+    std::size_t points_not_drawable = 0; ///< not finite, or beyond drawable_range
+    float line_width = 0;                ///< px, as drawn
+};
+
+class Renderer {
+public:
+    /// Loads the shaders that every picture needs from a folder like the repository's shaders/. Throws
+    /// std::runtime_error when the context is older than OpenGL 4.1, ShaderError for a shader that is missing or
+    /// broken.
+    explicit Renderer(std::filesystem::path shader_folder);
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    /// Draws the scene over the whole target and resolves it. Leaves the framebuffer binding as it was, depth test,
+    /// blending and sRGB writing off. Throws ShaderError, before anything is drawn, for an options.shader that is
+    /// missing or broken.
+    DrawReport draw(const Scene& what, Target& target);
+
+    /// Reads the shader files anew. Throws ShaderError when one that every picture needs is broken; the old ones then
+    /// stay in use.
+    void reload_shaders();
+    const std::filesystem::path& shader_folder() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+} // namespace clothlab::render

@@ -1,0 +1,59 @@
+// Position Verlet with damping on the displacement, as the course's specification gives it:
+//     x(t + dt) = x + (1 - d) (x - x(t - dt)) + a dt²
+// Its undamped form is L. Verlet, Physical Review 159 (1967), equation 4.
+#include <type_traits>
+
+#include "sim/forces/wind.h"
+#include "sim/integrators/integrator.h"
+#include "sim/stage_timer.h"
+
+namespace clothlab::sim {
+namespace {
+
+/// Moves every free mass; with_wind is a compile-time switch so that still air costs nothing.
+template <class Real, class WithWind>
+void move(const Model<Real>& model, State<Real>& state, const Vec3Array<Real>& force, WithWind with_wind) {
+    const Real dt = static_cast<Real>(model.dt), dt2 = dt * dt, c = dt2 / model.mass, keep = model.keep;
+    const Real wind_factor = Real(0.7) * dt2;
+    const Real t = model.wind.clock == WindClock::time ? static_cast<Real>(state.time) : dt;
+    Vec3Array<Real>&x = state.position, &p = state.previous;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (model.pinned[i]) continue;
+        Triple<Real> next{x.x[i] + keep * (x.x[i] - p.x[i]) + force.x[i] * c,
+                          x.y[i] + keep * (x.y[i] - p.y[i]) + force.y[i] * c,
+                          x.z[i] + keep * (x.z[i] - p.z[i]) + force.z[i] * c};
+        if constexpr (with_wind) {
+            const Real m = model.mass;
+            const Triple<Real> w = course_wind<Real>({x.x[i], x.y[i], x.z[i]}, t);
+            const Triple<Real> r = course_air_resistance<Real>(
+                {force.x[i] / m, force.y[i] / m, force.z[i] / m},
+                {(x.x[i] - p.x[i]) / dt, (x.y[i] - p.y[i]) / dt, (x.z[i] - p.z[i]) / dt});
+            next.x -= wind_factor * (w.x + r.x);
+            next.y -= wind_factor * (w.y + r.y);
+            next.z -= wind_factor * (w.z + r.z);
+        }
+        p.x[i] = x.x[i];
+        p.y[i] = x.y[i];
+        p.z[i] = x.z[i];
+        x.x[i] = next.x;
+        x.y[i] = next.y;
+        x.z[i] = next.z;
+    }
+}
+
+}  // namespace
+
+template <class Real>
+void course_verlet(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    evaluate_forces(model, state, work);
+    const StageTimer timer(work, Stage::integrate);
+    if (model.wind.kind == WindKind::course)
+        move(model, state, work.force, std::true_type{});
+    else
+        move(model, state, work.force, std::false_type{});
+}
+
+template void course_verlet<float>(const Model<float>&, State<float>&, Workspace<float>&);
+template void course_verlet<double>(const Model<double>&, State<double>&, Workspace<double>&);
+
+}  // namespace clothlab::sim

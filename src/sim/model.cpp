@@ -1,0 +1,98 @@
+#include "sim/model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "sim/units.h"
+
+namespace clothlab::sim {
+namespace {
+
+template <class Real>
+std::variant<SphereModel<Real>, PlaneModel<Real>> collider_model(const Collider& collider) {
+    const auto real = [](double v) { return static_cast<Real>(v); };
+    if (const Sphere* s = std::get_if<Sphere>(&collider))
+        return SphereModel<Real>{real(s->origin.x), real(s->origin.y), real(s->origin.z), real(s->radius),
+                                 real(1.0 - s->friction)};
+    const Plane& p = std::get<Plane>(collider);
+    const double length =
+        std::sqrt(p.normal.x * p.normal.x + p.normal.y * p.normal.y + p.normal.z * p.normal.z);
+    if (!(length > 0)) throw std::invalid_argument("a plane needs a normal that is not zero");
+    return PlaneModel<Real>{real(p.point.x),           real(p.point.y),           real(p.point.z),
+                            real(p.normal.x / length), real(p.normal.y / length), real(p.normal.z / length),
+                            real(1.0 - p.friction)};
+}
+
+template <class Real>
+void select_springs(const Cloth& cloth, Model<Real>& model) {
+    const Springs<Real>& all = model.grid->springs;
+    const std::array enabled{cloth.enable_structural, cloth.enable_shearing, cloth.enable_bending};
+    const std::array k{static_cast<Real>(cloth.ks), static_cast<Real>(cloth.ks),
+                       static_cast<Real>(bending_share * cloth.ks)};
+    const auto kind_of = [&](std::size_t i) { return static_cast<std::size_t>(all.kind[i]); };
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) count += enabled[kind_of(i)] ? 1u : 0u;
+    model.spring_a.reserve(count);
+    model.spring_b.reserve(count);
+    model.spring_rest.reserve(count);
+    model.spring_k.reserve(count);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!enabled[kind_of(i)]) continue;
+        model.spring_a.push_back(all.a[i]);
+        model.spring_b.push_back(all.b[i]);
+        model.spring_rest.push_back(all.rest[i]);
+        model.spring_k.push_back(k[kind_of(i)]);
+    }
+}
+
+}  // namespace
+
+template <class Real>
+Model<Real> make_model(const Description& description, std::shared_ptr<const Grid<Real>> grid) {
+    const Cloth& cloth = description.cloth;
+    const Stepping& stepping = description.stepping;
+    if (cloth.density == 0 || !std::isfinite(cloth.density))
+        throw std::invalid_argument("the density may be any number but zero");
+    if (stepping.substeps < 1) throw std::invalid_argument("a frame needs at least one substep");
+    if (!(stepping.frames_per_second > 0)) throw std::invalid_argument("the frame rate must be above zero");
+
+    const auto real = [](double v) { return static_cast<Real>(v); };
+    Model<Real> model;
+    model.grid = std::move(grid);
+    model.pinned.assign(model.grid->points(), 0);
+    for (const auto [column, row] : cloth.pinned) {
+        if (column < 0 || column >= model.grid->columns || row < 0 || row >= model.grid->rows)
+            throw std::invalid_argument("the pin [" + std::to_string(column) + ", " + std::to_string(row) +
+                                        "] is outside the grid");
+        model.pinned[static_cast<std::size_t>(row * model.grid->columns + column)] = 1;
+    }
+    select_springs(cloth, model);
+
+    Vec3 g = stepping.gravity;
+    for (const Vec3& a : stepping.accelerations) g = {g.x + a.x, g.y + a.y, g.z + a.z};
+    model.mass = real(point_mass(cloth));
+    model.gx = real(g.x);
+    model.gy = real(g.y);
+    model.gz = real(g.z);
+    model.keep = real(1.0 - fraction(cloth.damping));
+    model.dt = step_length(description);
+    model.substeps = stepping.substeps;
+    model.thickness = real(cloth.thickness);
+    const double w = 3.0 * cloth.width / cloth.num_width_points, h = 3.0 * cloth.height / cloth.num_height_points;
+    model.cell_x = real(w);
+    model.cell_y = real(h);
+    model.cell_z = real(std::max(w, h));
+    for (const Collider& c : description.colliders) model.colliders.push_back(collider_model<Real>(c));
+    model.wind = description.wind;
+    model.rules = description.rules;
+    model.integrator = stepping.integrator;
+    return model;
+}
+
+template Model<float> make_model<float>(const Description&, std::shared_ptr<const Grid<float>>);
+template Model<double> make_model<double>(const Description&, std::shared_ptr<const Grid<double>>);
+
+}  // namespace clothlab::sim

@@ -1,0 +1,62 @@
+// Everything that stays the same while steps are taken: grid, masses, spring constants, pins, colliders, rules, with
+// all derived constants computed once (docs/simulation.md). A parameter change makes a new model around the same grid.
+#pragma once
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "sim/description.h"
+#include "sim/grid.h"
+
+namespace clothlab::sim {
+
+template <class Real>
+struct SphereModel {
+    Real x, y, z, radius;
+    Real slide;  ///< 1 - friction
+};
+
+template <class Real>
+struct PlaneModel {
+    Real px, py, pz;
+    Real nx, ny, nz;  ///< unit normal
+    Real slide;       ///< 1 - friction
+};
+
+/// How far above a plane the course puts a point that crossed it, in m.
+inline constexpr double plane_offset = 1e-4;
+/// The course's stretch limit, as a multiple of the rest length.
+inline constexpr double stretch_limit = 1.1;
+
+template <class Real>
+struct Model {
+    std::shared_ptr<const Grid<Real>> grid;
+    std::vector<std::uint8_t> pinned;  ///< 1 for masses that no stage moves
+
+    // The springs that pull, in spring order: only those of enabled kinds, so that a kind that is off costs nothing.
+    std::vector<std::uint32_t> spring_a, spring_b;
+    AlignedVector<Real> spring_rest, spring_k;
+
+    Real mass = 0;           ///< kg per point
+    Real gx = 0, gy = 0, gz = 0;  ///< m/s², gravity and all further accelerations
+    Real keep = 1;           ///< share of the Verlet displacement that survives a step
+    double dt = 0;           ///< s
+    int substeps = 1;        ///< per frame
+    Real thickness = 0;      ///< m
+    Real cell_x = 0, cell_y = 0, cell_z = 0;  ///< m, cells of the self-collision
+    std::vector<std::variant<SphereModel<Real>, PlaneModel<Real>>> colliders;
+    Wind wind;
+    Rules rules;
+    IntegratorId integrator = IntegratorId::course_verlet;
+};
+
+/// Builds the model of a description on a grid that was made for it. Throws std::invalid_argument for what has no
+/// meaning (a pin outside the grid, density or substeps of zero, a plane without a normal).
+template <class Real>
+Model<Real> make_model(const Description& description, std::shared_ptr<const Grid<Real>> grid);
+
+extern template Model<float> make_model<float>(const Description&, std::shared_ptr<const Grid<float>>);
+extern template Model<double> make_model<double>(const Description&, std::shared_ptr<const Grid<double>>);
+
+}  // namespace clothlab::sim

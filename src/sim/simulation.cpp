@@ -1,0 +1,187 @@
+#include "sim/simulation.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#include "sim/random.h"
+
+namespace clothlab::sim {
+namespace {
+
+constexpr std::uint32_t state_magic = 0x534c4343;  // "CCLS"
+constexpr std::uint32_t state_version = 1;
+
+struct StateHeader {
+    std::uint32_t magic = state_magic, version = state_version;
+    std::uint32_t real_size = 0;
+    std::int32_t columns = 0, rows = 0, substep = 0;
+    std::uint64_t frame = 0, steps = 0;
+    double time = 0;
+};
+
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+    std::uint64_t h = bytes.size();
+    for (std::size_t i = 0; i < bytes.size(); i += 8) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(8, bytes.size() - i));
+        h = SplitMix64::mix(h ^ word);
+    }
+    return h;
+}
+
+template <class T>
+void append(std::vector<std::byte>& bytes, const T* values, std::size_t count) {
+    const std::size_t end = bytes.size();
+    bytes.resize(end + count * sizeof(T));
+    std::memcpy(bytes.data() + end, values, count * sizeof(T));
+}
+
+template <class Real>
+class SimulationOf final : public Simulation {
+public:
+    explicit SimulationOf(const Description& description)
+        : Simulation(description),
+          model_(make_model<Real>(description, std::make_shared<const Grid<Real>>(make_grid<Real>(description)))),
+          state_(initial_state(model_)),
+          work_(make_workspace(model_)) {}
+
+    void change(const Description& description) override {
+        if (!can_change_live(description_, description))
+            throw std::invalid_argument("this change of grid, start or precision needs a restart");
+        model_ = make_model<Real>(description, model_.grid);
+        description_ = description;
+        if (substep_ >= model_.substeps) {  // the frame under way has fewer steps now and is over
+            substep_ = 0;
+            ++frame_;
+        }
+    }
+
+    StepCounts step() override {
+        counts_ = sim::step(model_, state_, work_);
+        count_step();
+        return counts_;
+    }
+
+    double time() const override { return state_.time; }
+    std::uint64_t steps() const override { return state_.steps; }
+    std::size_t points() const override { return state_.position.size(); }
+    Vec3 position(std::size_t i) const override {
+        return {static_cast<double>(state_.position.x[i]), static_cast<double>(state_.position.y[i]),
+                static_cast<double>(state_.position.z[i])};
+    }
+    Diagnostics diagnose() const override { return sim::diagnose(model_, state_); }
+    Momentum momentum() const override { return sim::momentum(model_, state_); }
+    std::uint64_t hash() const override { return sim::hash(state_); }
+
+    void capture(Snapshot& s) const override {
+        s.columns = model_.grid->columns;
+        s.rows = model_.grid->rows;
+        s.positions.resize(3 * points());
+        for (std::size_t i = 0; i < points(); ++i) {
+            s.positions[3 * i] = static_cast<float>(state_.position.x[i]);
+            s.positions[3 * i + 1] = static_cast<float>(state_.position.y[i]);
+            s.positions[3 * i + 2] = static_cast<float>(state_.position.z[i]);
+        }
+        s.time = state_.time;
+        s.steps = state_.steps;
+        s.frame = frame_;
+        s.substep = substep_;
+        s.substeps = model_.substeps;
+        s.dt = model_.dt;
+        s.diagnostics = diagnose();
+        s.counts = counts_;
+    }
+
+    void time_stages(bool on) override {
+        work_.timed = on;
+        work_.seconds = {};
+    }
+    const StageSeconds& stage_seconds() const override { return work_.seconds; }
+
+    std::vector<std::byte> save_state() const override {
+        StateHeader header;
+        header.real_size = sizeof(Real);
+        header.columns = model_.grid->columns;
+        header.rows = model_.grid->rows;
+        header.substep = substep_;
+        header.frame = frame_;
+        header.steps = state_.steps;
+        header.time = state_.time;
+        std::vector<std::byte> bytes;
+        append(bytes, &header, 1);
+        for (const AlignedVector<Real>* axis : axes(state_)) append(bytes, axis->data(), axis->size());
+        const std::uint64_t sum = checksum(bytes);
+        append(bytes, &sum, 1);
+        return bytes;
+    }
+
+    void load_state(std::span<const std::byte> bytes) override {
+        StateHeader header;
+        if (bytes.size() < sizeof header + sizeof(std::uint64_t)) throw std::invalid_argument("too short to be a state");
+        std::memcpy(&header, bytes.data(), sizeof header);
+        if (header.magic != state_magic) throw std::invalid_argument("not a clothlab state");
+        if (header.version != state_version)
+            throw std::invalid_argument("a state of version " + std::to_string(header.version) + "; this program reads " +
+                                        std::to_string(state_version));
+        if (header.real_size != sizeof(Real))
+            throw std::invalid_argument(std::string("a state in ") + (header.real_size == 8 ? "double" : "single") +
+                                        " precision; the scene asks for " + (sizeof(Real) == 8 ? "double" : "single"));
+        if (header.columns != model_.grid->columns || header.rows != model_.grid->rows)
+            throw std::invalid_argument("a state of " + std::to_string(header.columns) + " x " +
+                                        std::to_string(header.rows) + " points; the scene has " +
+                                        std::to_string(model_.grid->columns) + " x " + std::to_string(model_.grid->rows));
+        const std::size_t size = sizeof header + 6 * points() * sizeof(Real) + sizeof(std::uint64_t);
+        if (bytes.size() != size) throw std::invalid_argument("a truncated or overlong state");
+        std::uint64_t sum = 0;
+        std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
+        if (sum != checksum(bytes.first(bytes.size() - sizeof sum)))
+            throw std::invalid_argument("a damaged state: its checksum does not match");
+
+        const std::byte* from = bytes.data() + sizeof header;
+        for (AlignedVector<Real>* axis : axes(state_)) {
+            std::memcpy(axis->data(), from, axis->size() * sizeof(Real));
+            from += axis->size() * sizeof(Real);
+        }
+        state_.time = header.time;
+        state_.steps = header.steps;
+        frame_ = header.frame;
+        substep_ = header.substep < model_.substeps ? header.substep : 0;
+    }
+
+private:
+    template <class S>
+    static auto axes(S& state) {
+        return std::array{&state.position.x, &state.position.y, &state.position.z,
+                          &state.previous.x, &state.previous.y, &state.previous.z};
+    }
+
+    Model<Real> model_;
+    State<Real> state_;
+    Workspace<Real> work_;
+    StepCounts counts_;
+};
+
+}  // namespace
+
+std::unique_ptr<Simulation> Simulation::create(const Description& description) {
+    if (description.stepping.precision == Precision::double_precision)
+        return std::make_unique<SimulationOf<double>>(description);
+    return std::make_unique<SimulationOf<float>>(description);
+}
+
+void Simulation::step_frame() {
+    const std::uint64_t now = frame_;
+    while (frame_ == now) step();
+}
+
+void Simulation::count_step() {
+    if (++substep_ >= description_.stepping.substeps) {
+        substep_ = 0;
+        ++frame_;
+    }
+}
+
+}  // namespace clothlab::sim

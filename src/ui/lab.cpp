@@ -1,0 +1,89 @@
+#include "ui/lab.h"
+
+#include <algorithm>
+#include <cmath>
+#include <imgui.h>
+
+#include "ui/icons.h"
+#include "ui/panels.h"
+
+namespace clothlab::ui {
+namespace {
+
+struct Panel {
+    PanelId id;
+    const char* name;
+    const char* window;  ///< title with icon, and the stable id that the layout file knows
+    void (*draw)(Lab&);
+};
+
+/// The dockspace's name in layout files: fixed, so that these stay good.
+constexpr ImGuiID dockspace = 0x0C107;
+
+constexpr Panel panels[] = {
+#define CLOTHLAB_PANEL(id, title, icon) {PanelId::id, title, icon "  " title "###" title, draw_##id},
+#include "ui/panels.def"
+#undef CLOTHLAB_PANEL
+};
+
+void draw_panel(Lab& lab, const Panel& panel) {
+    const auto index = static_cast<std::size_t>(panel.id);
+    PanelReport& report = lab.report[index];
+    report = {panel.name};
+    if (!lab.open[index]) return;
+    const bool viewport = panel.id == PanelId::viewport;
+    if (viewport) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    const bool visible = ImGui::Begin(panel.window, &lab.open[index],
+                                      viewport ? ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse : 0);
+    if (viewport) ImGui::PopStyleVar();
+    if (visible) {
+        const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+        report = {panel.name, true, at.x, at.y, size.x, size.y};
+        panel.draw(lab);
+    }
+    ImGui::End();
+}
+
+}  // namespace
+
+bool modified(const Lab& lab) {
+    scene::Scene a = lab.scene, b = lab.loaded;
+    a.camera.reset();
+    b.camera.reset();
+    return a != b;
+}
+
+void resize_grid(scene::Scene& scene, int columns, int rows) {
+    sim::Cloth& cloth = scene.simulation.cloth;
+    const auto moved = [](int at, int from, int to) {
+        return static_cast<int>(std::lround(static_cast<double>(at) * (to - 1) / (from - 1)));
+    };
+    // Neighbouring pins, as along a flag's pole, stay neighbours: the gaps between them are pinned too.
+    std::vector<sim::GridPoint> pins;
+    const auto pinned = [&](int column, int row) {
+        return std::find(cloth.pinned.begin(), cloth.pinned.end(), sim::GridPoint{column, row}) != cloth.pinned.end();
+    };
+    for (const auto& [column, row] : cloth.pinned) {
+        const int c = moved(column, cloth.num_width_points, columns), r = moved(row, cloth.num_height_points, rows);
+        pins.push_back({c, r});
+        if (pinned(column + 1, row))
+            for (int i = c + 1; i < moved(column + 1, cloth.num_width_points, columns); ++i) pins.push_back({i, r});
+        if (pinned(column, row + 1))
+            for (int i = r + 1; i < moved(row + 1, cloth.num_height_points, rows); ++i) pins.push_back({c, i});
+    }
+    std::sort(pins.begin(), pins.end());
+    pins.erase(std::unique(pins.begin(), pins.end()), pins.end());
+    cloth.pinned = std::move(pins);
+    cloth.num_width_points = columns;
+    cloth.num_height_points = rows;
+}
+
+void draw(Lab& lab) {
+    handle_keys(lab);
+    draw_menu(lab);
+    draw_status_bar(lab);
+    ImGui::DockSpaceOverViewport(dockspace);
+    for (const Panel& panel : panels) draw_panel(lab, panel);
+}
+
+}  // namespace clothlab::ui

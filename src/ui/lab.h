@@ -1,0 +1,106 @@
+// What the panels show and change. The app fills it in before a frame; panels write the scene and ask for what they
+// cannot do themselves; the app does it after the frame. Panels know neither threads nor OpenGL.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "scene/scene.h"
+#include "sim/snapshot.h"
+
+namespace clothlab::ui {
+
+struct SceneEntry {
+    std::string name, description;
+    std::filesystem::path file;
+};
+
+// What panels ask the app for.
+struct OpenScene { std::filesystem::path file; };
+struct SaveScene { std::filesystem::path file; };
+struct BrowseForScene { bool save = false; };  ///< a file dialog of the system
+struct Screenshot {};
+struct Play { bool on; };
+struct StepFrame {};
+struct StepSubstep {};
+struct Restart {};
+struct SetSpeed { double speed; };
+struct Undo {};
+struct Redo {};
+struct ResetLayout {};
+struct Quit {};
+using Request = std::variant<OpenScene, SaveScene, BrowseForScene, Screenshot, Play, StepFrame, StepSubstep, Restart,
+                             SetSpeed, Undo, Redo, ResetLayout, Quit>;
+
+struct Message {
+    bool error = false;
+    std::string text;
+};
+
+/// What a panel drew in the last frame, for tests and for the headless check.
+struct PanelReport {
+    std::string name;
+    bool drawn = false;  ///< not hidden behind another tab, not closed
+    float x = 0, y = 0, width = 0, height = 0;
+};
+
+enum class PanelId : std::uint8_t {
+#define CLOTHLAB_PANEL(id, title, icon) id,
+#include "ui/panels.def"
+#undef CLOTHLAB_PANEL
+    count
+};
+inline constexpr std::size_t panel_count = static_cast<std::size_t>(PanelId::count);
+
+struct Lab {
+    scene::Scene scene;          ///< as it is now: panels write here
+    scene::Scene loaded;         ///< as loaded or last saved: what reset goes back to
+    std::filesystem::path file;  ///< that it came from
+    std::vector<SceneEntry> scenes;
+    std::vector<std::string> shaders;
+
+    std::shared_ptr<const sim::Snapshot> snapshot;  ///< newest state; none before the first
+    bool playing = false;
+    double speed = 1;             ///< simulated seconds per second aimed at
+    double real_time_factor = 0;  ///< reached; 0 when unknown
+    bool can_undo = false, can_redo = false;
+    bool has_file_dialogs = false;
+
+    std::uint64_t viewport_texture = 0;  ///< shown by the viewport panel, bottom row first
+    int viewport_width = 0, viewport_height = 0;  ///< px that the viewport panel wants
+    std::array<std::array<float, 3>, sim::spring_kinds> spring_colours{};
+
+    /// A parameter that restarts the run takes effect when its slider is let go: until then the value waits here.
+    struct Pending {
+        std::string_view key;
+        double value;
+    };
+    std::optional<Pending> pending;
+
+    std::deque<Message> messages;  ///< newest last; the viewport shows them until they are dismissed
+    std::vector<Request> requests;
+    std::array<bool, panel_count> open{};
+    std::array<PanelReport, panel_count> report{};
+    bool status_bar_drawn = false;
+
+    void ask(Request request) { requests.push_back(std::move(request)); }
+};
+
+/// Whether the scene differs from what was loaded in more than its camera.
+bool modified(const Lab& lab);
+
+/// Changes the number of points along width or height and moves the pins to where they belong on the new grid.
+void resize_grid(scene::Scene& scene, int columns, int rows);
+
+/// Draws the menu, every open panel and the status bar, and handles the keys.
+void draw(Lab& lab);
+
+}  // namespace clothlab::ui

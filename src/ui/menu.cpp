@@ -1,0 +1,194 @@
+// The menu, the keys of the whole window, and the help on them.
+#include <cstring>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "ui/icons.h"
+#include "ui/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace clothlab::ui {
+namespace {
+
+constexpr const char* path_window = "Scene file###path";
+constexpr const char* help_window = "Keys###help";
+
+/// A path can always be typed; a file dialog of the system is there on most desktops but not on all.
+void draw_path_window(Lab& lab, bool open, bool save) {
+    // What is typed stays between frames while the window is open.
+    static struct {
+        std::string text;
+        bool save = false;
+    } typed;
+    if (open || save) {
+        typed.text = lab.file.string();
+        typed.save = save;
+        ImGui::OpenPopup(path_window);
+    }
+    ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+    if (!ImGui::BeginPopupModal(path_window, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+    ImGui::TextUnformatted(typed.save ? "Save the scene as:" : "Open a scene file (the course's format, or clothlab's):");
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 32);
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    const bool entered = ImGui::InputText("##path", &typed.text, ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool done = ImGui::Button(typed.save ? "Save" : "Open") || entered;
+    ImGui::SameLine();
+    if (lab.has_file_dialogs) {
+        if (ImGui::Button("Browse ...")) {
+            lab.ask(BrowseForScene{typed.save});
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::SameLine();
+    }
+    if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
+    if (done && !typed.text.empty()) {
+        if (typed.save)
+            lab.ask(SaveScene{typed.text});
+        else
+            lab.ask(OpenScene{typed.text});
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+void draw_help_window(bool open) {
+    if (open) ImGui::OpenPopup(help_window);
+    ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+    if (!ImGui::BeginPopupModal(help_window, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+    if (ImGui::BeginTable("keys", 2)) {
+        for (const Shortcut& s : shortcuts()) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            mono_text("%s", s.keys);
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(s.what);
+        }
+        ImGui::EndTable();
+    }
+    if (ImGui::Button("Close") || ImGui::IsKeyPressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+/// What menu entries and keys set off in windows of this file.
+struct Windows {
+    bool open = false, save = false, help = false;
+};
+
+void save(Lab& lab, Windows& windows) {
+    // The scenes that clothlab comes with are not written over by a key.
+    bool shipped = false;
+    for (const SceneEntry& entry : lab.scenes) shipped = shipped || entry.file == lab.file;
+    if (lab.file.empty() || shipped)
+        windows.save = true;
+    else
+        lab.ask(SaveScene{lab.file});
+}
+
+void file_menu(Lab& lab, Windows& windows) {
+    if (ImGui::MenuItem(ICON_FA_FOLDER_OPEN "  Open ...", "Ctrl+O")) windows.open = true;
+    if (ImGui::BeginMenu(ICON_FA_SHAPES "  Open scene")) {
+        for (const SceneEntry& entry : lab.scenes) {
+            if (ImGui::MenuItem(entry.name.c_str(), nullptr, entry.file == lab.file)) lab.ask(OpenScene{entry.file});
+            tooltip(entry.description);
+        }
+        ImGui::EndMenu();
+    }
+    if (ImGui::MenuItem(ICON_FA_FLOPPY_DISK "  Save", "Ctrl+S")) save(lab, windows);
+    if (ImGui::MenuItem("      Save as ...", "Ctrl+Shift+S")) windows.save = true;
+    ImGui::Separator();
+    if (ImGui::MenuItem(ICON_FA_CAMERA "  Screenshot", "F12")) lab.ask(Screenshot{});
+    ImGui::Separator();
+    if (ImGui::MenuItem("      Quit", "Ctrl+Q")) lab.ask(Quit{});
+}
+
+void view_menu(Lab& lab) {
+    std::size_t index = 0;
+#define CLOTHLAB_PANEL(id, title, icon) ImGui::MenuItem(icon "  " title, nullptr, &lab.open[index++]);
+#include "ui/panels.def"
+#undef CLOTHLAB_PANEL
+    ImGui::Separator();
+    if (ImGui::MenuItem("      Default layout")) lab.ask(ResetLayout{});
+}
+
+bool key(ImGuiKeyChord chord, ImGuiInputFlags flags = 0) {
+    return ImGui::Shortcut(chord, ImGuiInputFlags_RouteGlobal | flags);
+}
+
+void window_keys(Lab& lab, Windows& windows) {
+    if (key(ImGuiMod_Ctrl | ImGuiKey_O)) windows.open = true;
+    if (key(ImGuiMod_Ctrl | ImGuiKey_S)) save(lab, windows);
+    if (key(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S)) windows.save = true;
+    if (key(ImGuiKey_F1)) windows.help = true;
+}
+
+}  // namespace
+
+const std::vector<Shortcut>& shortcuts() {
+    static const std::vector<Shortcut> list{
+        {"Space, P", "play or pause"},
+        {"N", "one frame further"},
+        {"Shift+N", "one substep further"},
+        {"R", "restart"},
+        {"W", "wireframe or shaded"},
+        {"F, double click", "show the whole scene"},
+        {"left drag", "turn the camera"},
+        {"right drag, Shift+left drag", "move the camera"},
+        {"wheel", "nearer or further away"},
+        {"Ctrl+click on a slider", "type a value, also beyond its range"},
+        {"Ctrl+Z, Ctrl+Shift+Z", "undo and redo a change of parameters"},
+        {"Ctrl+O, Ctrl+S, Ctrl+Shift+S", "open, save, save as"},
+        {"F12", "screenshot into the current folder"},
+        {"F1", "these keys"},
+        {"Ctrl+Q", "quit"},
+    };
+    return list;
+}
+
+void handle_keys(Lab& lab) {
+    if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) return;
+    if (key(ImGuiKey_Space) || key(ImGuiKey_P)) lab.ask(Play{!lab.playing});
+    if (key(ImGuiMod_Shift | ImGuiKey_N, ImGuiInputFlags_Repeat)) lab.ask(StepSubstep{});
+    if (key(ImGuiKey_N, ImGuiInputFlags_Repeat)) lab.ask(StepFrame{});
+    if (key(ImGuiKey_R)) lab.ask(Restart{});
+    if (key(ImGuiKey_W)) {
+        std::string& shader = lab.scene.look.shader;
+        shader = shader == "wireframe" ? "diffuse" : "wireframe";
+    }
+    if (key(ImGuiKey_F)) lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
+    if (key(ImGuiMod_Ctrl | ImGuiKey_Z, ImGuiInputFlags_Repeat)) lab.ask(Undo{});
+    if (key(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Z, ImGuiInputFlags_Repeat) ||
+        key(ImGuiMod_Ctrl | ImGuiKey_Y, ImGuiInputFlags_Repeat))
+        lab.ask(Redo{});
+    if (key(ImGuiKey_F12)) lab.ask(Screenshot{});
+    if (key(ImGuiMod_Ctrl | ImGuiKey_Q)) lab.ask(Quit{});
+}
+
+void draw_menu(Lab& lab) {
+    Windows windows;
+    window_keys(lab, windows);
+    if (ImGui::BeginMainMenuBar()) {
+        if (ImGui::BeginMenu("File")) {
+            file_menu(lab, windows);
+            ImGui::EndMenu();
+        }
+        if (ImGui::BeginMenu("Edit")) {
+            if (ImGui::MenuItem("Undo", "Ctrl+Z", false, lab.can_undo)) lab.ask(Undo{});
+            if (ImGui::MenuItem("Redo", "Ctrl+Shift+Z", false, lab.can_redo)) lab.ask(Redo{});
+            ImGui::EndMenu();
+        }
+        if (ImGui::BeginMenu("View")) {
+            view_menu(lab);
+            ImGui::EndMenu();
+        }
+        if (ImGui::BeginMenu("Help")) {
+            if (ImGui::MenuItem("Keys", "F1")) windows.help = true;
+            ImGui::EndMenu();
+        }
+        ImGui::EndMainMenuBar();
+    }
+    draw_path_window(lab, windows.open, windows.save);
+    draw_help_window(windows.help);
+}
+
+}  // namespace clothlab::ui

@@ -1,0 +1,35 @@
+// Widgets that several panels share.
+#pragma once
+
+#include <string>
+
+#include "scene/fields.h"
+#include "ui/lab.h"
+
+namespace clothlab::ui {
+
+/// Begins a table of rows for field_row: label, widget, reset. False when it is not visible.
+bool begin_fields(const char* id);
+void end_fields();
+
+/// A row that edits one parameter of lab.scene: slider, switch or list as its type asks for, with unit and tooltip, and a
+/// button that resets it to the loaded scene's value where it differs.
+void field_row(Lab& lab, std::string_view key);
+
+/// A row for a number that is not in the table of fields (a collider's). True when it was changed.
+bool number_row(const char* label, const char* help, double& value, double loaded, double min, double max,
+                const char* format);
+/// The same for three numbers.
+bool vector_row(const char* label, const char* help, sim::Vec3& value, const sim::Vec3& loaded, double min, double max,
+                const char* format);
+
+/// Shows a wrapped text when the last item is hovered for a moment.
+void tooltip(const std::string& text);
+
+/// A square button with an icon and a tooltip.
+bool icon_button(const char* icon, const char* id, const char* help, bool enabled = true);
+
+/// Text in the fixed-width font, so that changing digits do not dance.
+void mono_text(const char* format, ...) __attribute__((format(printf, 1, 2)));
+
+}  // namespace clothlab::ui

@@ -1,0 +1,93 @@
+// What the drawing tests share: flat cloths, a small picture, and the check that OpenGL has nothing to complain about.
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+
+#include <catch2/catch_test_macros.hpp>
+
+#include "gui/gl_context.h"
+#include "render/renderer.h"
+
+namespace clothlab::test {
+
+inline const std::filesystem::path shader_folder = std::filesystem::path(CLOTHLAB_SOURCE_DIR) / "shaders";
+
+/// A flat horizontal cloth of 1 m x 1 m at y = 0, around the y axis.
+inline sim::Snapshot flat_cloth(int columns, int rows) {
+    sim::Snapshot s;
+    s.columns = columns;
+    s.rows = rows;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            s.positions.push_back(static_cast<float>(column) / static_cast<float>(columns - 1) - 0.5f);
+            s.positions.push_back(0);
+            s.positions.push_back(static_cast<float>(row) / static_cast<float>(rows - 1) - 0.5f);
+        }
+    }
+    return s;
+}
+
+/// From 2 m above (below for -2) the origin, with 1 m filling a height of 2 tan(20°) 2 m.
+inline render::View vertical_view(float height) {
+    render::View view;
+    view.eye = {0, height, 0};
+    view.target = {0, 0, 0};
+    view.up = {0, 0, -1};
+    return view;
+}
+
+inline double brightness(const std::uint8_t* p) {
+    return (p[0] + p[1] + p[2]) / 3.0;
+}
+
+/// Whether a pixel differs between two pictures of the same size by more than what rounding does.
+inline bool differs(const render::Image& a, const render::Image& b, int x, int y) {
+    const std::uint8_t *p = a.pixel(x, y), *q = b.pixel(x, y);
+    for (int k = 0; k < 3; ++k)
+        if (std::abs(p[k] - q[k]) > 1)
+            return true;
+    return false;
+}
+
+inline int count_differences(const render::Image& a, const render::Image& b) {
+    int count = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x)
+            count += differs(a, b, x, y) ? 1 : 0;
+    return count;
+}
+
+/// A context, a renderer and a target to draw into.
+struct Studio {
+    GlContext context;
+    render::Renderer renderer{shader_folder};
+    render::Target target{160, 90};
+    render::DrawReport report;
+
+    render::Image draw(const render::Scene& scene) {
+        report = renderer.draw(scene, target);
+        render::Image image = target.read();
+        CHECK(glGetError() == GL_NO_ERROR);
+        return image;
+    }
+};
+
+/// A folder that is there while the object lives.
+struct TemporaryFolder {
+    std::filesystem::path path;
+    explicit TemporaryFolder(const std::string& name)
+        : path(std::filesystem::temp_directory_path() / (name + "-" + std::to_string(std::random_device{}()))) {
+        std::filesystem::create_directories(path);
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
+};
+
+} // namespace clothlab::test

@@ -1,0 +1,204 @@
+// The parts of the renderer that need no OpenGL: pictures and their comparison, views, normals, shader files.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <catch2/catch_approx.hpp>
+
+#include "gui/render_fixture.h"
+#include "render/cloth_normals.h"
+
+using namespace clothlab;
+using namespace clothlab::test;
+using Catch::Approx;
+
+namespace {
+
+render::Image plain(int width, int height, std::uint8_t value) {
+    return {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(4 * width * height), value)};
+}
+
+/// The message of what an action throws.
+template <class Action>
+std::string message_of(Action action) {
+    try {
+        action();
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return {};
+}
+
+} // namespace
+
+TEST_CASE("A PNG written and read back is the same", "[image]") {
+    const TemporaryFolder folder("clothlab-png");
+    render::Image image = plain(37, 11, 0);
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+        image.rgba[i] = static_cast<std::uint8_t>(i * 7919 >> 3);
+    render::write_png(image, folder.path / "a.png");
+    CHECK(render::read_png(folder.path / "a.png") == image);
+}
+
+TEST_CASE("A picture that cannot be written or read is named with the reason", "[image]") {
+    const TemporaryFolder folder("clothlab-png");
+    const auto path = folder.path / "no" / "a.png";
+    const std::string written = message_of([&] { render::write_png(plain(2, 2, 0), path); });
+    CHECK(written.find(path.string()) != std::string::npos);
+    CHECK(written.find("No such file") != std::string::npos);
+    CHECK(message_of([&] { render::write_png({}, folder.path / "b.png"); }).find("empty") != std::string::npos);
+    CHECK(message_of([&] { render::write_png(plain(2, 2, 0), folder.path); }).find("irectory") != std::string::npos);
+    folder.write("c.png", "no picture");
+    for (const auto& name : {folder.path / "c.png", folder.path / "d.png", folder.path})
+        CHECK(message_of([&] { render::read_png(name); }).find(name.string()) != std::string::npos);
+}
+
+TEST_CASE("The difference of pictures is 0 for the same, 1 for black and white, and small for a small change",
+          "[image]") {
+    render::Image half = plain(128, 72, 0);
+    for (int y = 0; y < 72; ++y)
+        for (int x = 64; x < 128; ++x)
+            for (int k = 0; k < 3; ++k)
+                half.rgba[static_cast<std::size_t>(4 * (y * 128 + x) + k)] = 255;
+    CHECK(render::difference(half, half) == 0);
+    CHECK(render::difference(plain(128, 72, 0), plain(128, 72, 255)) == Approx(1));
+    CHECK(render::difference(half, plain(128, 72, 0)) == Approx(0.5));
+    CHECK(render::difference(plain(100, 77, 90), plain(31, 200, 90)) == Approx(0).margin(1e-12));
+    CHECK(render::difference(plain(3, 2, 255), plain(500, 2, 255)) == Approx(0).margin(1e-12));
+    render::Image dot = half;
+    for (std::size_t k = 0; k < 3; ++k)
+        dot.rgba[k] = 255;
+    CHECK(render::difference(half, dot) == Approx(1.0 / (128 * 72)));
+}
+
+TEST_CASE("A fitted view shows the whole box from any side", "[view]") {
+    const render::Box box{{-1, 0, 2}, {0.5f, 3, 2.2f}};
+    for (const glm::vec3 direction : {glm::vec3(0, 0, 1), {0, 1, 0}, {0, -1, 0}, {1, 0.3f, -0.2f}, {0, 0, 0}}) {
+        for (const float aspect : {0.3f, 1.f, 4.f}) {
+            const render::View view = render::fit_view(box, direction, aspect);
+            const glm::mat4 m = render::projection_matrix(view, aspect) * render::view_matrix(view);
+            float furthest = 0;
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::vec4 p =
+                    m * glm::vec4(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                                  corner & 4 ? box.max.z : box.min.z, 1);
+                REQUIRE(p.w > 0);
+                for (int k = 0; k < 3; ++k)
+                    REQUIRE(std::abs(p[k]) <= p.w);
+                furthest = std::max({furthest, std::abs(p.x / p.w), std::abs(p.y / p.w)});
+            }
+            CHECK(furthest > 0.8f); // and not from far away
+        }
+    }
+    CHECK(std::isfinite(render::fit_view({}).eye.x));
+}
+
+TEST_CASE("Orbit keeps the distance, pan follows the mouse, zoom stays in front of the target", "[view]") {
+    const render::View start;
+    const float distance = glm::length(start.eye - start.target);
+    render::View view = start;
+    for (int i = 0; i < 50; ++i)
+        view = render::orbit(view, 0.3f, 0.2f);
+    CHECK(glm::length(view.eye - view.target) == Approx(distance).epsilon(1e-3));
+    CHECK(view.eye.y - view.target.y < distance);
+    CHECK(glm::length(render::orbit(render::orbit(start, 0.4f, 0.1f), -0.4f, -0.1f).eye - start.eye) < 1e-4f);
+
+    // What was under the mouse at the target's depth is 10 px further right and 20 px further down.
+    const render::View panned = render::pan(start, 10, 20, 600);
+    const glm::mat4 m = render::projection_matrix(panned, 2) * render::view_matrix(panned);
+    const glm::vec4 p = m * glm::vec4(start.target, 1);
+    CHECK(p.x / p.w * 600 == Approx(10).margin(0.01));
+    CHECK(-p.y / p.w * 300 == Approx(20).margin(0.01));
+
+    for (int i = 0; i < 100; ++i)
+        view = render::zoom(view, 0.5f);
+    CHECK(glm::length(view.eye - view.target) > view.near_plane);
+    CHECK(render::zoom(start, 0).eye == start.eye);
+}
+
+TEST_CASE("Normals point up for a flat cloth and are safe where there is none", "[normals]") {
+    sim::Snapshot cloth = flat_cloth(4, 3);
+    std::vector<float> normals;
+    render::cloth_normals(4, 3, cloth.positions, {}, normals);
+    for (std::size_t i = 0; i < normals.size(); i += 3)
+        CHECK(normals[i + 1] == Approx(1));
+
+    std::vector<std::uint8_t> usable;
+    cloth.positions[0] = std::numeric_limits<float>::quiet_NaN();
+    CHECK(render::find_drawable(cloth.positions, usable) == 1);
+    render::cloth_normals(4, 3, cloth.positions, usable, normals);
+    for (std::size_t i = 0; i < normals.size(); i += 3)
+        CHECK(normals[i + 1] == Approx(1));
+
+    for (float& x : cloth.positions)
+        x = 0.25f; // all points in one place
+    render::cloth_normals(4, 3, cloth.positions, {}, normals);
+    for (std::size_t i = 0; i < normals.size(); i += 3)
+        CHECK((normals[i] == 0 && normals[i + 1] == 1 && normals[i + 2] == 0));
+}
+
+TEST_CASE("Normals of a cylinder are its radii", "[normals]") {
+    sim::Snapshot cloth = flat_cloth(60, 4);
+    for (std::size_t i = 0; i < cloth.positions.size(); i += 3) {
+        const float angle = 2 * cloth.positions[i];
+        cloth.positions[i] = std::sin(angle);
+        cloth.positions[i + 1] = std::cos(angle);
+    }
+    std::vector<float> normals;
+    render::cloth_normals(60, 4, cloth.positions, {}, normals);
+    for (std::size_t point = 0; point < 240; ++point) {
+        if (point % 60 == 0 || point % 60 == 59)
+            continue; // the rim has one side only
+        CHECK(normals[3 * point] == Approx(cloth.positions[3 * point]).margin(0.02));
+        CHECK(normals[3 * point + 1] == Approx(cloth.positions[3 * point + 1]).margin(0.02));
+    }
+}
+
+TEST_CASE("Shaders are the files of a folder", "[shaders]") {
+    const std::vector<std::string> shipped = render::list_surface_shaders(shader_folder);
+    CHECK(std::find(shipped.begin(), shipped.end(), "diffuse") != shipped.end());
+    CHECK(std::find(shipped.begin(), shipped.end(), "wireframe") != shipped.end());
+    CHECK(render::list_surface_shaders("/no/such/folder") == std::vector<std::string>{"wireframe"});
+}
+
+TEST_CASE("Includes are put in once, with the lines they came from", "[shaders]") {
+    const TemporaryFolder folder("clothlab-includes");
+    folder.write("main.frag", "#version 330 core\n#include \"a.glsl\"\n#include \"b.glsl\"\nend\n");
+    folder.write("a.glsl", "#include \"b.glsl\"\nin a"); // no newline at the end
+    folder.write("b.glsl", "in b\r\n");
+    const render::ShaderSource source = render::read_shader(folder.path, "main.frag");
+    CHECK(source.text == "#version 330 core\nin b\nin a\nend\n");
+    const std::pair<const char*, int> origins[] = {{"main.frag", 1}, {"b.glsl", 1}, {"a.glsl", 2}, {"main.frag", 4}};
+    REQUIRE(source.lines.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(source.files[source.lines[i].file] == folder.path / origins[i].first);
+        CHECK(source.lines[i].number == origins[i].second);
+    }
+
+    folder.write("a.glsl", "\n#include \"c.glsl\"\n");
+    try {
+        render::read_shader(folder.path, "main.frag");
+        FAIL("no error");
+    } catch (const render::ShaderError& error) {
+        CHECK(error.file() == folder.path / "a.glsl");
+        CHECK(error.line() == 2);
+        CHECK(std::string(error.what()).find("c.glsl") != std::string::npos);
+    }
+}
+
+TEST_CASE("The messages of every driver are understood", "[shaders]") {
+    render::ShaderSource source{"", {}, {"x/main.frag", "x/light.glsl"}};
+    for (int i = 1; i <= 20; ++i)
+        source.lines.push_back({i > 10 ? 1u : 0u, i});
+    for (const char* log : {"0:12(5): error: `foo' undeclared", "0(12) : error C1008: undefined variable \"foo\"",
+                            "ERROR: 0:12: 'foo' : undeclared identifier"}) {
+        const render::ShaderMessage message = render::locate(source, log);
+        CHECK(message.file == "x/light.glsl");
+        CHECK(message.line == 12);
+        CHECK(message.text.find("x/light.glsl:12") != std::string::npos);
+        CHECK(message.text.find("foo") != std::string::npos);
+    }
+    CHECK(render::locate(source, "it went wrong").file == "x/main.frag");
+    CHECK(render::locate(source, "it went wrong").line == 0);
+    CHECK(render::locate(source, "0:3(1): warning: unused\n0:4(1): error: bad").line == 4);
+}
