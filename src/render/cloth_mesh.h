@@ -25,9 +25,9 @@ public:
     /// Draws with the program in use, as triangles with position, normal and uv (0 to 1 along columns and rows),
     /// anticlockwise seen from the side the normals point to. Returns the number of triangles.
     std::size_t draw_surface() const;
-    /// Draws the springs of a kind as GL_LINES with positions. Returns their number. Bending springs that follow each
-    /// other along a row or column overlap: every second one runs backwards, so that a shader which moves lines to
-    /// their left shows both.
+    /// Draws the springs of a kind as GL_LINES with position and normal. Returns their number. Bending springs that
+    /// follow each other along a row or column overlap: every second one runs backwards, so that a shader which moves
+    /// lines to one side shows both.
     std::size_t draw_springs(sim::SpringKind kind) const;
     /// Draws the points that are named and inside the grid as GL_POINTS. Returns their number.
     std::size_t draw_points(std::span<const sim::GridPoint> points);

@@ -74,7 +74,7 @@ struct Renderer::Parts {
     }
     void set_frame(const Scene& what, const Target& target, const ProjectedCloth& projected);
     void draw_background(const Options& options);
-    void draw_springs(const Options& options, bool depth_cue, float cell, DrawReport& report);
+    void draw_springs(const Options& options, bool depth_cue, DrawReport& report);
     void draw_colliders(const Scene& what, DrawReport& report);
     void draw_planes(const Scene& what, DrawReport& report);
     void draw_pins(const Scene& what, DrawReport& report);
@@ -106,21 +106,26 @@ void Renderer::Parts::draw_background(const Options& options) {
     glEnable(GL_DEPTH_TEST);
 }
 
-void Renderer::Parts::draw_springs(const Options& options, bool depth_cue, float cell, DrawReport& report) {
+void Renderer::Parts::draw_springs(const Options& options, bool depth_cue, DrawReport& report) {
     const Program& program = shaders.program("lines");
     program.use();
     program.set("width", report.line_width);
     program.set("depth_cue", depth_cue ? 0.45f : 0.f);
     program.set("background", linear((options.background_top + options.background_bottom) * 0.5f));
-    // Bending springs beside the structural ones that they span, so that both are seen.
-    const float bending_shift = std::clamp(0.14f * cell, 1.25f * report.line_width, 4 * report.line_width);
-    // Structural springs last: they lie over the bending springs that span two of them.
-    for (const sim::SpringKind kind : {sim::SpringKind::bending, sim::SpringKind::shear, sim::SpringKind::structural}) {
+    // Bending springs run beside the structural ones that they span, so that both are seen, and under all others.
+    struct Look {
+        sim::SpringKind kind;
+        float shift, depth;
+    };
+    for (const auto& [kind, shift, depth] :
+         {Look{sim::SpringKind::bending, 0.065f, 0.9985f}, Look{sim::SpringKind::shear, 0, 0.998f},
+          Look{sim::SpringKind::structural, 0, 0.9975f}}) {
         const auto k = static_cast<std::size_t>(kind);
         if (!options.show_springs[k])
             continue;
         program.set("colour", linear(spring_colours[k]));
-        program.set("shift", kind == sim::SpringKind::bending ? bending_shift : 0.f);
+        program.set("shift", shift);
+        program.set("depth", depth);
         report.springs[k] = cloth.draw_springs(kind);
     }
 }
@@ -240,7 +245,7 @@ DrawReport Renderer::draw(const Scene& what, Target& target) {
     if (options.show_colliders)
         parts.draw_colliders(what, report);
     if (wireframe || options.springs_over_surface)
-        parts.draw_springs(options, wireframe, projected.cell, report);
+        parts.draw_springs(options, wireframe, report);
     if (options.show_colliders)
         parts.draw_planes(what, report);
     if (options.show_pins)

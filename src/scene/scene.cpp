@@ -41,7 +41,7 @@ Camera fitting_camera(const sim::Description& description) {
     Camera camera;
     camera.target = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
     const double radius = std::hypot(high.x - low.x, high.y - low.y, high.z - low.z) / 2;
-    camera.distance = 1.05 * radius / std::sin(camera.fov / 2 * std::numbers::pi / 180);
+    camera.distance = 0.92 * radius / std::sin(camera.fov / 2 * std::numbers::pi / 180);
     return camera;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 void group(Lab& lab, const char* title, std::initializer_list<std::string_view> keys, bool open = true) {
     if (!ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0)) return;
-    if (!begin_fields(title)) return;
+    if (!begin_fields((std::string(title) + "##fields").c_str())) return;
     for (const std::string_view key : keys) field_row(lab, key);
     end_fields();
 }
@@ -42,7 +42,7 @@ void colliders(Lab& lab) {
         char title[64];
         std::snprintf(title, sizeof title, "%s  %s %zu###collider%zu", sphere ? ICON_FA_CIRCLE : ICON_FA_SQUARE,
                       sphere ? "Sphere" : "Plane", i + 1, i);
-        if (!ImGui::CollapsingHeader(title) || !begin_fields(title)) continue;
+        if (!ImGui::CollapsingHeader(title) || !begin_fields((std::string(title) + "##fields").c_str())) continue;
         ImGui::PushID(static_cast<int>(i));
         const bool same_kind = i < loaded.size() && loaded[i].index() == list[i].index();
         const sim::Collider& reference = same_kind ? loaded[i] : list[i];
@@ -57,7 +57,7 @@ void colliders(Lab& lab) {
 
 void wind(Lab& lab) {
     if (!ImGui::CollapsingHeader("Wind")) return;
-    if (!begin_fields("wind")) return;
+    if (!begin_fields("wind##fields")) return;
     field_row(lab, "wind.kind");
     switch (lab.scene.simulation.wind.kind) {
         case sim::WindKind::none: break;

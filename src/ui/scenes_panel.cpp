@@ -35,9 +35,10 @@ void draw_scenes(Lab& lab) {
     ImGui::SeparatorText("Scenes");
     if (!ImGui::BeginChild("list")) return ImGui::EndChild();
     for (const SceneEntry& entry : lab.scenes) {
-        const bool open = entry.file == lab.file;
-        if (ImGui::Selectable((entry.name + "##" + entry.file.string()).c_str(), open)) lab.ask(OpenScene{entry.file});
+        ImGui::PushID(&entry);  // names may repeat
+        if (ImGui::Selectable(entry.name.c_str(), entry.file == lab.file)) lab.ask(OpenScene{entry.file});
         tooltip(entry.description);
+        ImGui::PopID();
     }
     ImGui::EndChild();
 }

@@ -52,9 +52,9 @@ void draw_transport(Lab& lab) {
     speed_list(lab);
     if (!lab.snapshot) return;
     const sim::Snapshot& s = *lab.snapshot;
-    ImGui::SameLine(0, ImGui::GetFontSize() * 1.5f);
-    mono_text("%8.3f s   frame %llu   substep %d/%d", s.time, static_cast<unsigned long long>(s.frame), s.substep,
-              s.substeps);
+    ImGui::SameLine(0, ImGui::GetFontSize());
+    mono_text("%.3f s  frame %llu + %d/%d", s.time, static_cast<unsigned long long>(s.frame), s.substep, s.substeps);
+    tooltip("Simulated time, whole frames since the start, and the substeps taken of the next frame");
 }
 
 }  // namespace clothlab::ui

@@ -88,7 +88,7 @@ void edit_number(Lab& lab, const Field& f) {
     // Back to the file's unit by dividing: 15 g/cm² is 150 kg/m², not 149.99999999999997.
     if (edited && waits) lab.pending = Lab::Pending{f.key, value / shown.factor};
     if (edited && !waits) assign(lab, f, value / shown.factor);
-    if (waits && pending && ImGui::IsItemDeactivated()) {
+    if (waits && lab.pending && lab.pending->key == f.key && ImGui::IsItemDeactivated()) {
         assign(lab, f, lab.pending->value);
         lab.pending.reset();
     }
@@ -126,8 +126,8 @@ bool edit_vector(sim::Vec3& v, double min, double max, const char* format) {
 
 bool begin_fields(const char* id) {
     if (!ImGui::BeginTable(id, 3, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoSavedSettings)) return false;
-    ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, 0.42f);
-    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.58f);
+    ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, 0.46f);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.54f);
     ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight());
     return true;
 }

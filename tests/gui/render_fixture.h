@@ -40,6 +40,20 @@ inline render::View vertical_view(float height) {
     return view;
 }
 
+/// A snapshot seen from above, or from below with a negative height.
+inline render::Scene scene_of(const sim::Snapshot& snapshot, float eye_height = 2) {
+    render::Scene scene;
+    scene.snapshot = &snapshot;
+    scene.view = vertical_view(eye_height);
+    return scene;
+}
+
+inline render::Scene empty_scene() {
+    render::Scene scene;
+    scene.view = vertical_view(2);
+    return scene;
+}
+
 inline double brightness(const std::uint8_t* p) {
     return (p[0] + p[1] + p[2]) / 3.0;
 }

@@ -1,4 +1,4 @@
-// The parts of the renderer that need no OpenGL: pictures and their comparison, views, normals, shader files.
+// The parts of the renderer that need no OpenGL: pictures and their comparison, views, normals.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -152,53 +152,4 @@ TEST_CASE("Normals of a cylinder are its radii", "[normals]") {
         CHECK(normals[3 * point] == Approx(cloth.positions[3 * point]).margin(0.02));
         CHECK(normals[3 * point + 1] == Approx(cloth.positions[3 * point + 1]).margin(0.02));
     }
-}
-
-TEST_CASE("Shaders are the files of a folder", "[shaders]") {
-    const std::vector<std::string> shipped = render::list_surface_shaders(shader_folder);
-    CHECK(std::find(shipped.begin(), shipped.end(), "diffuse") != shipped.end());
-    CHECK(std::find(shipped.begin(), shipped.end(), "wireframe") != shipped.end());
-    CHECK(render::list_surface_shaders("/no/such/folder") == std::vector<std::string>{"wireframe"});
-}
-
-TEST_CASE("Includes are put in once, with the lines they came from", "[shaders]") {
-    const TemporaryFolder folder("clothlab-includes");
-    folder.write("main.frag", "#version 330 core\n#include \"a.glsl\"\n#include \"b.glsl\"\nend\n");
-    folder.write("a.glsl", "#include \"b.glsl\"\nin a"); // no newline at the end
-    folder.write("b.glsl", "in b\r\n");
-    const render::ShaderSource source = render::read_shader(folder.path, "main.frag");
-    CHECK(source.text == "#version 330 core\nin b\nin a\nend\n");
-    const std::pair<const char*, int> origins[] = {{"main.frag", 1}, {"b.glsl", 1}, {"a.glsl", 2}, {"main.frag", 4}};
-    REQUIRE(source.lines.size() == 4);
-    for (std::size_t i = 0; i < 4; ++i) {
-        CHECK(source.files[source.lines[i].file] == folder.path / origins[i].first);
-        CHECK(source.lines[i].number == origins[i].second);
-    }
-
-    folder.write("a.glsl", "\n#include \"c.glsl\"\n");
-    try {
-        render::read_shader(folder.path, "main.frag");
-        FAIL("no error");
-    } catch (const render::ShaderError& error) {
-        CHECK(error.file() == folder.path / "a.glsl");
-        CHECK(error.line() == 2);
-        CHECK(std::string(error.what()).find("c.glsl") != std::string::npos);
-    }
-}
-
-TEST_CASE("The messages of every driver are understood", "[shaders]") {
-    render::ShaderSource source{"", {}, {"x/main.frag", "x/light.glsl"}};
-    for (int i = 1; i <= 20; ++i)
-        source.lines.push_back({i > 10 ? 1u : 0u, i});
-    for (const char* log : {"0:12(5): error: `foo' undeclared", "0(12) : error C1008: undefined variable \"foo\"",
-                            "ERROR: 0:12: 'foo' : undeclared identifier"}) {
-        const render::ShaderMessage message = render::locate(source, log);
-        CHECK(message.file == "x/light.glsl");
-        CHECK(message.line == 12);
-        CHECK(message.text.find("x/light.glsl:12") != std::string::npos);
-        CHECK(message.text.find("foo") != std::string::npos);
-    }
-    CHECK(render::locate(source, "it went wrong").file == "x/main.frag");
-    CHECK(render::locate(source, "it went wrong").line == 0);
-    CHECK(render::locate(source, "0:3(1): warning: unused\n0:4(1): error: bad").line == 4);
 }

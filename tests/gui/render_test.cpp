@@ -13,19 +13,6 @@ using Catch::Approx;
 
 namespace {
 
-render::Scene scene_of(const sim::Snapshot& snapshot, float eye_height = 2) {
-    render::Scene scene;
-    scene.snapshot = &snapshot;
-    scene.view = vertical_view(eye_height);
-    return scene;
-}
-
-render::Scene empty_scene() {
-    render::Scene scene;
-    scene.view = vertical_view(2);
-    return scene;
-}
-
 double srgb(double linear) {
     return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
 }
@@ -264,59 +251,4 @@ TEST_CASE("Drawing leaves OpenGL as it found it", "[render]") {
     CHECK(studio.target.texture() == texture);
     CHECK(studio.draw(scene_of(cloth)) == studio.draw(scene_of(cloth)));
     CHECK(studio.report.points_in_view == 16);
-}
-
-TEST_CASE("A broken shader is reported with its file and line, and nothing is drawn", "[render]") {
-    Studio studio;
-    const TemporaryFolder folder("clothlab-shaders");
-    std::filesystem::copy(shader_folder, folder.path, std::filesystem::copy_options::recursive);
-    render::Renderer renderer(folder.path);
-    const sim::Snapshot cloth = flat_cloth(4, 4);
-    render::Scene scene = scene_of(cloth);
-    renderer.draw(scene, studio.target);
-    const render::Image before = studio.target.read();
-
-    const auto error_of = [&](const std::string& name) {
-        scene.options.shader = name;
-        try {
-            renderer.draw(scene, studio.target);
-        } catch (const render::ShaderError& error) {
-            CHECK(glGetError() == GL_NO_ERROR);
-            CHECK(studio.target.read() == before);
-            return error;
-        }
-        FAIL("no error for " << name);
-        throw 0;
-    };
-    const std::string start = "#version 330 core\n#include \"common/frame.glsl\"\n#include \"common/cloth.glsl\"\n";
-    folder.write("cloth/typo.frag", start + "void main() {\n    pixel = vec4(seen_color(), 1.0);\n}\n");
-    const render::ShaderError typo = error_of("typo");
-    CHECK(typo.line() == 5);
-    CHECK(typo.file() == folder.path / "cloth/typo.frag");
-    CHECK(std::string(typo.what()).find("typo.frag:5") != std::string::npos);
-    CHECK(std::string(typo.what()).find("seen_color") != std::string::npos);
-
-    folder.write("common/wrong.glsl", "float fine() { return 1.0; }\nfloat wrong() { return nothing; }\n");
-    folder.write("cloth/inner.frag",
-                 start + "#include \"common/wrong.glsl\"\nvoid main() { pixel = vec4(wrong()); }\n");
-    const render::ShaderError inner = error_of("inner");
-    CHECK(inner.line() == 2);
-    CHECK(inner.file() == folder.path / "common/wrong.glsl");
-
-    const std::string unknown = error_of("no-such").what();
-    CHECK(unknown.find("no-such") != std::string::npos);
-    CHECK(unknown.find("diffuse, inner, typo, wireframe") != std::string::npos);
-    error_of("../cloth/diffuse");
-
-    // A shader of two files, mended while the renderer lives.
-    folder.write("cloth/typo.frag", start + "void main() { pixel = vec4(1.0, 0.0, 1.0, 1.0); }\n");
-    scene.options.shader = "typo";
-    renderer.draw(scene, studio.target);
-    CHECK(studio.target.read().pixel(80, 45)[0] == 255);
-
-    folder.write("lines.geom", "#version 330 core\nnonsense\n");
-    CHECK_THROWS_AS(renderer.reload_shaders(), render::ShaderError);
-    renderer.draw(scene, studio.target);
-    CHECK_THROWS_AS(render::Renderer(folder.path), render::ShaderError);
-    CHECK_THROWS_AS(render::Renderer(folder.path / "missing"), render::ShaderError);
 }

@@ -96,6 +96,21 @@ TEST_CASE("After the plane stage no point that started above is below, and none 
     REQUIRE(contacts == down + up);
 }
 
+TEST_CASE("A point that comes to lie on the plane is in contact, and one that starts on it started above") {
+    const auto after = [](double from, double to) {
+        Sheet<double> sheet = sheet_with(sim::Plane{{0, 0, 0}, {0, 1, 0}, 0});
+        sheet.put(sheet.state.previous, 0, {0, from, 0});
+        sheet.put(sheet.state.position, 0, {0, to, 0});
+        sim::resolve_colliders(sheet.model, sheet.state);
+        return sheet.position(0).y;
+    };
+    REQUIRE_THAT(after(0.5, 0), WithinRel(1e-4, 1e-9));
+    REQUIRE_THAT(after(-0.5, 0), WithinRel(-1e-4, 1e-9));
+    REQUIRE_THAT(after(0, -0.25), WithinRel(1e-4, 1e-9));
+    REQUIRE_THAT(after(0, 0), WithinRel(1e-4, 1e-9));
+    REQUIRE(after(0, 0.25) == 0.25);
+}
+
 TEST_CASE("A plane's normal counts by its direction, not by its length") {
     Sheet<double> once = sheet_with(sim::Plane{{0, 0, 0}, {0, 1, 0}, 0.25});
     Sheet<double> fourfold = sheet_with(sim::Plane{{0, 0, 0}, {0, 4, 0}, 0.25});

@@ -117,6 +117,22 @@ TEST_CASE(
     REQUIRE(largest_displacement(sheet) > 1e-3); // from 1e-6; a limit of 2 would have let it die out
 }
 
+TEST_CASE("A cloth a hundred times its own size has diverged; one that is large or far away has not") {
+    Sheet<double> sheet(bare_cloth(5, 5));
+    const auto status = [&](double scale, double fallen) {
+        for (std::size_t i = 0; i < sheet.points(); ++i) {
+            const sim::Vec3 x = Sheet<double>::coordinates(sheet.model.grid->start, i);
+            sheet.place(i, {scale * x.x, x.y - fallen, scale * x.z});
+        }
+        return sim::diagnose(sheet.model, sheet.state).status;
+    };
+    REQUIRE(status(1, 0) == sim::Status::ok);
+    REQUIRE(status(1, 1e6) == sim::Status::ok);
+    REQUIRE(status(50, 0) == sim::Status::ok);
+    REQUIRE(status(110, 0) == sim::Status::diverged);
+    REQUIRE(status(1e20, 0) == sim::Status::diverged);
+}
+
 TEST_CASE("The number of substeps that the diagnosis asks for is enough") {
     sim::Description description = bare_cloth(20, 20);
     description.cloth.ks = 3e6;

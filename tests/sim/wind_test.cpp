@@ -68,6 +68,16 @@ TEST_CASE("The course's wind equals the reference to the last bit with either cl
     require_same_bits(p, [](const sim::StepCounts&) { return true; });
 }
 
+TEST_CASE("In long steps, where every bit of the course's wind counts, it equals the reference") {
+    reference::Parameters p =
+        windy_cloth(GENERATE(reference::Wind::course_with_step, reference::Wind::course_with_time));
+    p.frames_per_second = GENERATE(3, 5);
+    p.substeps = 1;
+    p.ks = 10;
+    p.gravity = {};
+    require_same_bits(p, [](const sim::StepCounts&) { return true; });
+}
+
 TEST_CASE("The course's wind and its two clocks make three different motions") {
     const auto end = [](reference::Wind wind) {
         const auto simulation = sim::Simulation::create(description_of(windy_cloth(wind)));

@@ -324,7 +324,7 @@ private:
                 continue;
             V moved = mass.x + keep * (mass.x - mass.previous) + mass.force * c;
             if (parameters.wind == Wind::course_with_step || parameters.wind == Wind::course_with_time) {
-                const Real factor = static_cast<Real>(0.7 * static_cast<double>(dt2));
+                const Real factor = Real(0.7) * dt2;
                 moved = moved - factor * (course_wind(mass.x) + course_resistance(mass));
             }
             mass.previous = mass.x;
