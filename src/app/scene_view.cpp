@@ -37,6 +37,8 @@ render::Scene to_render(const scene::Scene& scene, const sim::Snapshot* snapshot
     o.springs_over_surface = look.springs_over_surface;
     o.show_pins = look.show_pins;
     o.show_colliders = look.show_colliders;
+    // The front faces the viewer at first: up, or, for cloth that stands, to +z.
+    o.swap_sides = scene.simulation.cloth.orientation == sim::Orientation::vertical;
     o.sphere_lat_lines = look.sphere_latitude_lines;
     o.sphere_lon_lines = look.sphere_longitude_lines;
     return result;

@@ -38,7 +38,7 @@ std::string divergence_cause(const Model<Real>& model, const char* what) {
     const double y = std::sqrt(8 * k / mass) * model.dt;
     const double limit = 2 * std::sqrt(std::max(0.0, 1 - damping / 2));
     if (y > limit)
-        return sentence("%s: omega dt = %.3g > %.3g, ks is too stiff for %d substeps; %.0f would do", what, y, limit,
+        return sentence("%s: omega dt = %.3g > %.3g, ks is too stiff for %d substeps; %.0f would do for a flat cloth", what, y, limit,
                         model.substeps, std::ceil(model.substeps * y / limit));
     return sentence("%s: not by stiffness (omega dt = %.3g < %.3g); look at wind, damping and accelerations", what, y,
                     limit);

@@ -90,6 +90,7 @@ public:
     /// Candidates for a box, each once, in order.
     void near(const Box& box, std::vector<Index>& out) const {
         out = large_;
+        if (slots_.empty()) return;  // no face at all
         const auto add = [&](std::size_t slot) {
             for (const Index i : slots_[slot])
                 if (overlap(box, boxes_[i])) out.push_back(i);

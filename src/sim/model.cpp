@@ -18,12 +18,14 @@ std::variant<SphereModel<Real>, PlaneModel<Real>> collider_model(const Collider&
         return SphereModel<Real>{real(s->origin.x), real(s->origin.y), real(s->origin.z), real(s->radius),
                                  real(1.0 - s->friction)};
     const Plane& p = std::get<Plane>(collider);
-    const double length =
-        std::sqrt(p.normal.x * p.normal.x + p.normal.y * p.normal.y + p.normal.z * p.normal.z);
-    if (!(length > 0)) throw std::invalid_argument("a plane needs a normal that is not zero");
-    return PlaneModel<Real>{real(p.point.x),           real(p.point.y),           real(p.point.z),
-                            real(p.normal.x / length), real(p.normal.y / length), real(p.normal.z / length),
-                            real(1.0 - p.friction)};
+    // Scaled by its largest component first, so that no normal is too short or too long to be squared.
+    Vec3 n = p.normal;
+    const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+    if (!(largest > 0) || !std::isfinite(largest)) throw std::invalid_argument("a plane needs a normal that is not zero");
+    n = {n.x / largest, n.y / largest, n.z / largest};
+    const double length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+    return PlaneModel<Real>{real(p.point.x),    real(p.point.y),    real(p.point.z),    real(n.x / length),
+                            real(n.y / length), real(n.z / length), real(1.0 - p.friction)};
 }
 
 template <class Real>

@@ -150,7 +150,7 @@ public:
         }
         if (parameters.stretch_limit)
             limit_stretch();
-        ++steps_;
+        time_ += dt();
     }
 
     void frame() {
@@ -160,18 +160,12 @@ public:
 
     /// Parameters other than the grid's may be changed between steps.
     void change(const Parameters& p) {
-        const double old_dt = dt();
-        const double now = time();
         parameters = p;
         pin_masses();
-        if (dt() != old_dt) {
-            time_base_ = now;
-            steps_ = 0;
-        }
     }
 
     double dt() const { return 1.0 / parameters.frames_per_second / parameters.substeps; }
-    double time() const { return time_base_ + static_cast<double>(steps_) * dt(); }
+    double time() const { return time_; }
     double mass_in_double() const {
         return parameters.width * parameters.height * parameters.density / (parameters.columns * parameters.rows);
     }
@@ -299,8 +293,7 @@ private:
         const Real pressure = Real(0.5) * static_cast<Real>(p.air_density) * area * dot(n, u_hat) * speed * speed;
         V force = static_cast<Real>(p.drag) * pressure * u_hat;
         const V l = cross(cross(u_hat, n), u_hat);
-        if (length(l) > 0)
-            force = force + static_cast<Real>(p.lift) * pressure * (l / length(l));
+        force = force + static_cast<Real>(p.lift) * pressure * l;
         for (Mass<Real>* corner : {&a, &b, &c})
             corner->force = corner->force + force / Real(3);
     }
@@ -441,8 +434,7 @@ private:
     }
 
     std::vector<double> random_z_;
-    double time_base_ = 0;
-    long steps_ = 0;
+    double time_ = 0;
 };
 
 } // namespace reference

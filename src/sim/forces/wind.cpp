@@ -1,5 +1,8 @@
 // Physical wind: M. Keckeisen, S. Kimmerle, B. Thomaszewski, M. Wacker, "Modelling effects of wind fields in cloth
-// animations", Journal of WSCG 12 (2004): drag against, and lift across, the relative velocity of each face.
+// animations", Journal of WSCG 12 (2004): drag along, and lift across, the relative flow at each face. A deviation: their
+// lift has a unit vector for its direction and so is strongest, and without a direction, where the wind stands on the
+// face. Here the part of the normal across the flow is used as it is, with the sine for its length: lift then vanishes
+// there, and with equal coefficients drag and lift together are the pressure on a flat plate, along its normal.
 #include "sim/forces/wind.h"
 
 #include <cmath>
@@ -57,10 +60,9 @@ void add_wind_forces(const Model<Real>& model, const State<Real>& state, Vec3Arr
         const Triple<Real> n{side * cross.x / twice_area, side * cross.y / twice_area, side * cross.z / twice_area};
         const Real cosine = side * along / (twice_area * speed);
         const Real flow = Real(0.5) * twice_area * cosine * speed;  // A cos |u|, to be multiplied by |u| below
-        // The part of n across the flow; its length is the sine, so that n = cosine u/|u| + across.
+        // The part of n across the flow; its length is the sine, and n = cosine u/|u| + across.
         const Triple<Real> across{n.x - cosine * u.x / speed, n.y - cosine * u.y / speed, n.z - cosine * u.z / speed};
-        const Real sine = std::sqrt(across.x * across.x + across.y * across.y + across.z * across.z);
-        const Real d = drag * flow, l = sine > 0 ? lift * flow * speed / sine : Real(0);
+        const Real d = drag * flow, l = lift * flow * speed;
         const Triple<Real> share{d * u.x + l * across.x, d * u.y + l * across.y, d * u.z + l * across.z};
         for (const std::uint32_t corner : {a, b, c}) {
             force.x[corner] += share.x;

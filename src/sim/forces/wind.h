@@ -25,7 +25,7 @@ Triple<Real> course_air_resistance(Triple<Real> acceleration, Triple<Real> veloc
 /// The air's velocity in m/s at a time in s: the wind's velocity with its gusts.
 Vec3 air_velocity(const Wind& wind, double time);
 
-/// Adds drag and lift of every triangle to its corners, in N. `dt` (s) turns displacements into velocities.
+/// Adds drag and lift of every triangle to its corners, in N; velocities are (position - previous) / dt.
 template <class Real>
 void add_wind_forces(const Model<Real>& model, const State<Real>& state, Vec3Array<Real>& force);
 
