@@ -36,7 +36,9 @@ std::vector<ui::SceneEntry> scene_entries() {
 LabApp::LabApp(const LabOptions& options, scene::Scene scene, fs::path file)
     : window_(options.window, options.width, options.height, "clothlab"),
       imgui_(window_, layout_file(options), data_path("imgui.ini"), options.scale),
-      renderer_(data_path("shaders")) {
+      renderer_(data_path("shaders")),
+      // On the screen smooth motion matters more than smooth edges; a picture has time.
+      viewport_(1, 1, options.window == Window::Kind::desktop && render::software_rendering() ? 1 : 4) {
     if (options.window == Window::Kind::offscreen) whole_.emplace(options.width, options.height, 1);
     lab_.open.fill(true);
     lab_.scenes = scene_entries();

@@ -5,6 +5,15 @@
 
 namespace clothlab::render {
 
+namespace {
+
+std::string text(GLenum name) {
+    const GLubyte* s = glGetString(name);
+    return s == nullptr ? std::string("unknown") : std::string(reinterpret_cast<const char*>(s));
+}
+
+} // namespace
+
 void require_gl() {
     if (glGetIntegerv == nullptr || glGetString == nullptr)
         throw std::runtime_error("OpenGL is not loaded: no context is current");
@@ -13,12 +22,13 @@ void require_gl() {
     glGetIntegerv(GL_MINOR_VERSION, &minor);
     if (major > 4 || (major == 4 && minor >= 1))
         return;
-    const auto text = [](GLenum name) {
-        const GLubyte* s = glGetString(name);
-        return s == nullptr ? std::string("unknown") : std::string(reinterpret_cast<const char*>(s));
-    };
     throw std::runtime_error("OpenGL 4.1 is needed, but the driver (" + text(GL_RENDERER) + ") offers " +
                              text(GL_VERSION));
+}
+
+bool software_rendering() {
+    const std::string renderer = text(GL_RENDERER);
+    return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
 }
 
 } // namespace clothlab::render

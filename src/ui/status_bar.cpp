@@ -67,7 +67,8 @@ void cells(Lab& lab, const sim::Snapshot& s) {
              print("springs %.4g J\n", d.energy.spring) + print("gravity %.4g J", d.energy.gravity));
     cell("strain", print("%.1f %%", 100 * d.max_strain), "Largest elongation of any spring",
          d.max_strain > 0.15 ? colour::warning : colour::text);
-    cell("UI", print("%.0f fps", static_cast<double>(ImGui::GetIO().Framerate)), "Pictures of this window per second");
+    if (lab.playing)  // paused, the window rests on purpose
+        cell("UI", print("%.0f fps", static_cast<double>(ImGui::GetIO().Framerate)), "Pictures of this window per second");
 }
 
 }  // namespace
