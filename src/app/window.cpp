@@ -3,7 +3,7 @@
 #include <GLFW/glfw3.h>
 #include <glad/gl.h>
 
-#include <cstdio>
+#include <cstdlib>
 
 namespace clothlab::app {
 namespace {
@@ -12,6 +12,21 @@ std::string last_error() {
     const char* text = nullptr;
     glfwGetError(&text);
     return text ? text : "unknown reason";
+}
+
+bool is_set(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value && *value;
+}
+
+/// The platform to ask GLFW for. Asking it for a Wayland display where there is none makes libwayland complain to the user.
+int desktop_platform() {
+#ifdef __linux__
+    const bool wayland = is_set("WAYLAND_DISPLAY") || is_set("WAYLAND_SOCKET");
+    if (!wayland && !is_set("DISPLAY")) throw NoDisplay("neither DISPLAY nor WAYLAND_DISPLAY is set");
+    if (!wayland) return GLFW_PLATFORM_X11;
+#endif
+    return GLFW_ANY_PLATFORM;
 }
 
 void set_context_hints(bool offscreen) {
@@ -30,7 +45,7 @@ void set_context_hints(bool offscreen) {
 
 Window::Window(Kind kind, int width, int height, const std::string& title) : kind_(kind), title_(title) {
     const bool offscreen = kind == Kind::offscreen;
-    glfwInitHint(GLFW_PLATFORM, offscreen ? GLFW_PLATFORM_NULL : GLFW_ANY_PLATFORM);
+    glfwInitHint(GLFW_PLATFORM, offscreen ? GLFW_PLATFORM_NULL : desktop_platform());
     if (!glfwInit()) {
         const std::string why = last_error();
         if (offscreen) throw std::runtime_error("GLFW cannot be initialised: " + why);

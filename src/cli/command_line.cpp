@@ -66,7 +66,11 @@ void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiC
 }  // namespace
 
 scene::Scene SceneArguments::load() const {
-    scene::Scene result = scene::load_scene(app::scene_path(scene));
+    const std::filesystem::path file = app::scene_path(scene);
+    std::error_code error;
+    if (!std::filesystem::exists(file, error))
+        throw scene::SceneError(scene + ": there is no such file, and no scene of that name; see `clothlab list scenes`");
+    scene::Scene result = scene::load_scene(file);
     for (const std::string& setting : settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos || equals == 0)
@@ -129,7 +133,10 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
         std::cerr << "clothlab: " << e.what() << "\n";
         return 1;
     }
-    std::cout.flush();
+    if (!std::cout.flush()) {
+        std::cerr << "clothlab: standard output cannot be written\n";
+        return 1;
+    }
     return status;
 }
 

@@ -114,7 +114,7 @@ int list(const std::string& what, bool json) {
                       : what == "scenes"    ? scenes()
                                             : parameters();
     if (json)
-        std::cout << rows.dump(2) << "\n";
+        std::cout << rows.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";  // file names need not be UTF-8
     else
         print_table(rows);
     return 0;

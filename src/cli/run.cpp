@@ -110,7 +110,8 @@ void write_state(const std::string& file, const sim::Simulation& simulation) {
 }
 
 void resume(const std::string& file, sim::Simulation& simulation) {
-    const std::string text = scene::read_text_file(file);
+    constexpr std::uintmax_t max_size = std::uintmax_t{1} << 30;  // of the largest cloth in double precision: 192 MiB
+    const std::string text = scene::read_text_file(file, max_size);
     try {
         simulation.load_state(std::as_bytes(std::span(text)));
     } catch (const std::invalid_argument& e) {
@@ -220,7 +221,7 @@ int run(const RunArguments& arguments) {
     if (arguments.csv == "-") return 0;  // the table would end up among the rows
     const Json json = results(arguments, scene, *simulation, frames, simulation->steps() - first_step, wall_s, divergence);
     if (arguments.json)
-        std::cout << json.dump(2) << "\n";
+        std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";  // file names need not be UTF-8
     else
         print_table(json);
     return 0;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "render/view.h"
+#include "sim/snapshot.h"
 
 namespace clothlab::render {
 

@@ -10,6 +10,7 @@ namespace clothlab::scene {
 namespace {
 
 constexpr std::size_t max_depth = 32;
+constexpr std::size_t max_keys = 1000;  ///< in one object: finding a repeated one takes quadratic time
 
 /// nlohmann's SAX callbacks do not say where they are, so the input iterator does: it reports how far it has been read.
 struct TrackedIterator {
@@ -60,6 +61,8 @@ public:
     bool start_array(std::size_t) override { return open(Node::Type::array); }
     bool key(string_t& name) override {
         Node& object = *stack_.back();
+        if (object.members.size() >= max_keys)
+            return fail("more than " + std::to_string(max_keys) + " keys in one object", here());
         if (object.find(name)) return fail("the key \"" + name + "\" stands twice", here());
         object.members.emplace_back(std::move(name), Node{});
         object.members.back().second.line = line(here());
@@ -71,7 +74,7 @@ public:
         const bool overflow = dynamic_cast<const nlohmann::detail::out_of_range*>(&e) != nullptr;
         std::string what = overflow ? "a number that no double can hold" : "not valid JSON";
         const std::size_t at = position > 0 ? position - 1 : 0;
-        if (at + 1 >= text_.size() && !overflow)
+        if (position > text_.size() && !overflow)  // it has read beyond the last character
             what += ": the text ends too early";
         else if (!token.empty())
             what += " at \"" + token.substr(token.size() > 40 ? token.size() - 40 : 0) + "\"";
@@ -83,9 +86,13 @@ public:
 
 private:
     std::size_t here() const { return static_cast<std::size_t>(reached_ - text_.data()); }
-    std::size_t line(std::size_t offset) const {
-        return 1 + static_cast<std::size_t>(
-                       std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
+    /// Counts on from where it was asked last; from the start each time would take quadratic time.
+    std::size_t line(std::size_t offset) {
+        const auto [from, to] = std::minmax(offset, counted_);
+        const auto newlines = static_cast<std::size_t>(std::ranges::count(text_.substr(from, to - from), '\n'));
+        line_ = offset >= counted_ ? line_ + newlines : line_ - newlines;
+        counted_ = offset;
+        return line_;
     }
     bool fail(std::string what, std::size_t offset) {
         error = {line(offset), std::move(what)};
@@ -134,6 +141,7 @@ private:
 
     std::string_view text_;
     const char*& reached_;
+    std::size_t counted_ = 0, line_ = 1;
     // Pointers into vectors stay valid: only the innermost open node grows.
     std::vector<Node*> stack_;
 };

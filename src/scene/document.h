@@ -29,7 +29,7 @@ struct Node {
 /// "an object", "a number", ...
 std::string_view describe(Node::Type type);
 
-/// A parsed text. Nesting is limited to 32 levels and keys may not repeat within an object.
+/// A parsed text. Nesting is limited to 32 levels and objects to 1000 keys, which may not repeat.
 struct Document {
     std::string source;  ///< name for messages
     Node root;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "sim/integrators/integrator.h"
@@ -97,8 +98,9 @@ std::vector<Field> make_fields() {
 }
 
 std::string plain(double value) {
+    const bool whole = value == std::floor(value) && std::abs(value) < 1e16;  // with all its digits
     char text[40];
-    std::snprintf(text, sizeof text, "%.15g", value);
+    std::snprintf(text, sizeof text, "%.*g", whole ? 17 : 15, value);
     return text;
 }
 
@@ -152,19 +154,21 @@ std::optional<std::string> objection(const Field& f, double value) {
 }
 
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> candidates) {
-    // Levenshtein's distance; a word is meant when at most a third of its letters differ.
+    // Levenshtein's distance, with two letters swapped as one change; a word is meant when at most a third of its
+    // letters differ.
     std::optional<std::string_view> best;
     std::size_t best_distance = std::max<std::size_t>(word.size() / 3, 1) + 1;
     for (const std::string_view candidate : candidates) {
-        std::vector<std::size_t> row(candidate.size() + 1);
+        std::vector<std::size_t> row(candidate.size() + 1), last, before_last;
         for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
         for (std::size_t i = 1; i <= word.size(); ++i) {
-            std::size_t diagonal = row[0];
+            before_last = std::exchange(last, row);
             row[0] = i;
             for (std::size_t j = 1; j < row.size(); ++j) {
-                const std::size_t change = diagonal + (word[i - 1] == candidate[j - 1] ? 0u : 1u);
-                diagonal = row[j];
-                row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+                const std::size_t change = last[j - 1] + (word[i - 1] == candidate[j - 1] ? 0u : 1u);
+                row[j] = std::min({change, last[j] + 1, row[j - 1] + 1});
+                if (i > 1 && j > 1 && word[i - 1] == candidate[j - 2] && word[i - 2] == candidate[j - 1])
+                    row[j] = std::min(row[j], before_last[j - 2] + 1);
             }
         }
         if (row.back() < best_distance) {

@@ -1,6 +1,7 @@
 // Scenes as text and as files: the course's format, and ours, a versioned superset of it (docs/scenes.md).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -37,7 +38,10 @@ void check(const Scene& scene, const std::string& source);
 /// A camera as JSON text with the keys of a scene's "camera", for files and the clipboard. Throws SceneError.
 Camera read_camera(std::string_view text, const std::string& source);
 
-/// The whole text of a file. Throws SceneError when it cannot be read, is a folder or is larger than any scene.
-std::string read_text_file(const std::filesystem::path& file);
+/// No scene or camera file is larger, in bytes.
+inline constexpr std::uintmax_t max_text_size = 64u << 20;
+
+/// The whole text of a file. Throws SceneError when it cannot be read, is a folder or is larger than allowed.
+std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max_size = max_text_size);
 
 }  // namespace clothlab::scene

@@ -98,8 +98,8 @@ public:
         }
     }
 
-    sim::Sphere sphere(const Node& node, const std::string& key) {
-        Members members(*this, node, key, {"origin", "radius", "friction"});
+    sim::Sphere sphere(const Node& node, const std::string& key, Names allowed = {"origin", "radius", "friction"}) {
+        Members members(*this, node, key, allowed);
         sim::Sphere s;
         s.origin = vector(members.required("origin"), key + ".origin");
         const Node& radius = members.required("radius");
@@ -109,8 +109,8 @@ public:
         return s;
     }
 
-    sim::Plane plane(const Node& node, const std::string& key) {
-        Members members(*this, node, key, {"point", "normal", "friction"});
+    sim::Plane plane(const Node& node, const std::string& key, Names allowed = {"point", "normal", "friction"}) {
+        Members members(*this, node, key, allowed);
         sim::Plane p;
         p.point = vector(members.required("point"), key + ".point");
         const Node& normal = members.required("normal");
@@ -173,7 +173,7 @@ private:
             : reader_(reader), node_(node), key_(std::move(key)) {
             reader.expect(node, key_, Node::Type::object);
             for (const auto& [name, value] : node.members)
-                if (name != "type" && std::find(allowed.begin(), allowed.end(), name) == allowed.end())
+                if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
                     reader.document_.fail(value, key_ + "." + name, unknown(name, allowed));
         }
         const Node& required(std::string_view name) const {
@@ -202,8 +202,8 @@ private:
             expect(item, key, Node::Type::object);
             const Node* type = item.find("type");
             if (!type) document_.fail(item, key + ".type", "missing; it must be \"sphere\" or \"plane\"");
-            if (type->text == "sphere") result.simulation.colliders.emplace_back(sphere(item, key));
-            else if (type->text == "plane") result.simulation.colliders.emplace_back(plane(item, key));
+            if (type->text == "sphere") result.simulation.colliders.emplace_back(sphere(item, key, {"type", "origin", "radius", "friction"}));
+            else if (type->text == "plane") result.simulation.colliders.emplace_back(plane(item, key, {"type", "point", "normal", "friction"}));
             else document_.fail(*type, key + ".type", "it must be \"sphere\" or \"plane\"");
         }
     }
@@ -280,15 +280,15 @@ Document value_document(std::string_view value, const std::string& source) {
 }
 
 void set_rules(Scene& scene, const Document& value) {
-    bool known = false;
-    for (const Field& f : fields())
-        if (f.section() == "rules")
-            for (std::size_t i = 0; i < f.choices.size(); ++i)
-                if (f.choices[i] == value.root.text) {
-                    f.set(scene, static_cast<double>(i));
-                    known = true;
-                }
-    if (!known) value.fail(value.root, "rules", "it must be \"cs184\", or set one rule as in rules.limit=off");
+    Scene changed = scene;
+    for (const Field& f : fields()) {
+        if (f.section() != "rules") continue;
+        const auto choice = std::find(f.choices.begin(), f.choices.end(), value.root.text);
+        if (choice == f.choices.end())
+            value.fail(value.root, "rules", "it must be \"cs184\", or set one rule as in rules.limit=off");
+        f.set(changed, static_cast<double>(choice - f.choices.begin()));
+    }
+    scene = std::move(changed);
 }
 
 void set_collider(Scene& scene, std::size_t index, std::string_view member, const Document& value,
@@ -390,12 +390,12 @@ void set_parameter(Scene& scene, std::string_view key, std::string_view value) {
     const std::string name(key);
     const std::string source = "--set " + name + "=" + std::string(value);
     if (value.empty()) throw SceneError(source + ": no value; write KEY=VALUE");
+    if (key == "name") return void(scene.name = std::string(value));
+    if (key == "description") return void(scene.description = std::string(value));
     try {
         const Document document = value_document(value, source);
         Reader reader(document);
         if (key == "rules") return set_rules(scene, document);
-        if (key == "name") return void(scene.name = std::string(value));
-        if (key == "description") return void(scene.description = std::string(value));
         if (key == "cloth.pinned") return void(scene.simulation.cloth.pinned = reader.pinned(document.root, name));
         if (key == "simulation.accelerations")
             return void(scene.simulation.stepping.accelerations = reader.vectors(document.root, name));

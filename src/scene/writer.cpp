@@ -13,8 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uintmax_t max_file_size = 64u << 20;
-
 Json to_json(const sim::Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 Json to_json(const sim::Collider& collider) {
@@ -44,19 +42,22 @@ bool nested(const Json& json) {
     return false;
 }
 
+/// On one line; bytes that are not UTF-8, as file names may have them, become replacement characters.
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 /// Indented as people write scenes: lists of numbers and pins stay on one line.
 void write(std::ostream& out, const Json& json, int indent) {
     const std::string pad(static_cast<std::size_t>(indent) + 2, ' ');
     const bool object = json.is_object();
     if (!object && !(json.is_array() && nested(json))) {
-        out << json.dump();
+        out << dump(json);
         return;
     }
     out << (object ? "{" : "[");
     bool first = true;
     for (auto it = json.begin(); it != json.end(); ++it, first = false) {
         out << (first ? "\n" : ",\n") << pad;
-        if (object) out << Json(it.key()).dump() << ": ";
+        if (object) out << dump(it.key()) << ": ";
         write(out, *it, indent + 2);
     }
     out << "\n" << std::string(static_cast<std::size_t>(indent), ' ') << (object ? "}" : "]");
@@ -88,19 +89,21 @@ std::string write_scene(const Scene& scene) {
     return out.str();
 }
 
-std::string read_text_file(const std::filesystem::path& file) {
+std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max_size) {
     std::error_code error;
     const std::string name = file.string();
-    if (std::filesystem::is_directory(file, error)) throw SceneError(name + ": this is a folder, not a scene file");
+    if (std::filesystem::is_directory(file, error)) throw SceneError(name + ": this is a folder, not a file");
     std::ifstream in(file, std::ios::binary);
     if (!in) throw SceneError(name + ": cannot be read: " + reason());
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (!error && size > max_file_size)
-        throw SceneError(name + ": too large for a scene file; at most 64 MiB are read");
-    std::ostringstream text;
-    text << in.rdbuf();
+    std::string text;  // read in pieces: pipes and devices do not say how long they are
+    for (std::string piece(1u << 16, '\0'); in && text.size() <= max_size;) {
+        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        text.append(piece, 0, static_cast<std::size_t>(in.gcount()));
+    }
     if (in.bad()) throw SceneError(name + ": cannot be read: " + reason());
-    return std::move(text).str();
+    if (text.size() > max_size)
+        throw SceneError(name + ": too large; at most " + std::to_string(max_size >> 20) + " MiB are read");
+    return text;
 }
 
 Scene load_scene(const std::filesystem::path& file) {
@@ -117,9 +120,10 @@ void save_scene(const Scene& scene, const std::filesystem::path& file) {
         std::filesystem::remove(partial, ignored);
         throw SceneError(file.string() + ": cannot be written: " + why);
     };
+    const std::string text = write_scene(scene);
     {
         std::ofstream out(partial, std::ios::binary | std::ios::trunc);
-        out << write_scene(scene);
+        out << text;
         out.flush();
         if (!out) fail(reason());
     }

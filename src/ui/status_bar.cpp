@@ -60,7 +60,7 @@ void cells(Lab& lab, const sim::Snapshot& s) {
     for (std::size_t i = 0; i < sim::stage_names.size() && step > 0; ++i)
         if (s.seconds_per_step[i] > 0) {
             static constexpr const char* short_names[] = {"forces", "Verlet", "self", "colliders", "limit"};
-            cell(short_names[i], print("%3.0f", s.seconds_per_step[i] * 1e6), stage_table(s));
+            cell(short_names[i], print("%.0f µs", s.seconds_per_step[i] * 1e6), stage_table(s));
         }
     cell("energy", print("%.2f J", d.energy.total()),
          "Total energy; gravity's part is zero at the origin.\n" + print("kinetic %.4g J\n", d.energy.kinetic) +

@@ -71,51 +71,6 @@ TEST_CASE("The difference of pictures is 0 for the same, 1 for black and white, 
     CHECK(render::difference(half, dot) == Approx(1.0 / (128 * 72)));
 }
 
-TEST_CASE("A fitted view shows the whole box from any side", "[view]") {
-    const render::Box box{{-1, 0, 2}, {0.5f, 3, 2.2f}};
-    for (const glm::vec3 direction : {glm::vec3(0, 0, 1), {0, 1, 0}, {0, -1, 0}, {1, 0.3f, -0.2f}, {0, 0, 0}}) {
-        for (const float aspect : {0.3f, 1.f, 4.f}) {
-            const render::View view = render::fit_view(box, direction, aspect);
-            const glm::mat4 m = render::projection_matrix(view, aspect) * render::view_matrix(view);
-            float furthest = 0;
-            for (int corner = 0; corner < 8; ++corner) {
-                const glm::vec4 p =
-                    m * glm::vec4(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                                  corner & 4 ? box.max.z : box.min.z, 1);
-                REQUIRE(p.w > 0);
-                for (int k = 0; k < 3; ++k)
-                    REQUIRE(std::abs(p[k]) <= p.w);
-                furthest = std::max({furthest, std::abs(p.x / p.w), std::abs(p.y / p.w)});
-            }
-            CHECK(furthest > 0.8f); // and not from far away
-        }
-    }
-    CHECK(std::isfinite(render::fit_view({}).eye.x));
-}
-
-TEST_CASE("Orbit keeps the distance, pan follows the mouse, zoom stays in front of the target", "[view]") {
-    const render::View start;
-    const float distance = glm::length(start.eye - start.target);
-    render::View view = start;
-    for (int i = 0; i < 50; ++i)
-        view = render::orbit(view, 0.3f, 0.2f);
-    CHECK(glm::length(view.eye - view.target) == Approx(distance).epsilon(1e-3));
-    CHECK(view.eye.y - view.target.y < distance);
-    CHECK(glm::length(render::orbit(render::orbit(start, 0.4f, 0.1f), -0.4f, -0.1f).eye - start.eye) < 1e-4f);
-
-    // What was under the mouse at the target's depth is 10 px further right and 20 px further down.
-    const render::View panned = render::pan(start, 10, 20, 600);
-    const glm::mat4 m = render::projection_matrix(panned, 2) * render::view_matrix(panned);
-    const glm::vec4 p = m * glm::vec4(start.target, 1);
-    CHECK(p.x / p.w * 600 == Approx(10).margin(0.01));
-    CHECK(-p.y / p.w * 300 == Approx(20).margin(0.01));
-
-    for (int i = 0; i < 100; ++i)
-        view = render::zoom(view, 0.5f);
-    CHECK(glm::length(view.eye - view.target) > view.near_plane);
-    CHECK(render::zoom(start, 0).eye == start.eye);
-}
-
 TEST_CASE("Normals point up for a flat cloth and are safe where there is none", "[normals]") {
     sim::Snapshot cloth = flat_cloth(4, 3);
     std::vector<float> normals;

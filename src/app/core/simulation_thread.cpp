@@ -205,7 +205,7 @@ void SimulationThread::play(bool on) {
 void SimulationThread::step(int substeps) {
     send([substeps](Worker& w) {
         w.playing = w.in_frame = false;
-        w.steps_to_take += substeps;
+        w.steps_to_take += std::max(substeps, 0);
         w.dirty = true;
     });
 }

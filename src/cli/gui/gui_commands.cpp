@@ -32,8 +32,9 @@ int lab(const LabArguments& given) {
         window.simulation().play(true);
         window.run();
         return 0;
-    } catch (const app::NoDisplay&) {
-        std::cerr << "clothlab: there is no display; drawing the lab without one\n";
+    } catch (const app::NoDisplay& e) {
+        std::cerr << "clothlab: there is no display (" << e.what() << "); drawing the lab into " << arguments.picture
+                  << "\n";
     }
     app::LabOptions options;
     options.window = app::Window::Kind::offscreen;
