@@ -190,7 +190,8 @@ void LabApp::draw_viewport() {
     if (now == shown_ && lab_.viewport_texture != 0) return;
     viewport_.resize(now.width, now.height);
     try {
-        draw_report_ = renderer_.draw(to_render(lab_.scene, lab_.snapshot.get()), viewport_);
+        draw_report_ = renderer_.draw(
+            to_render(lab_.scene, lab_.snapshot.get(), static_cast<double>(now.width) / now.height), viewport_);
     } catch (const render::ShaderError& e) {
         say(true, e.what());
         lab_.scene.look.shader = shown_.scene.look.shader.empty() ? "diffuse" : shown_.scene.look.shader;

@@ -152,7 +152,9 @@ public:
 
     sim::Vec3 vector(const Node& node, const std::string& key) {
         if (node.type != Node::Type::array || node.items.size() != 3)
-            document_.fail(node, key, "it must be a list of three numbers, this is " + std::string(describe(node.type)));
+            document_.fail(node, key,
+                           "it must be a list of three numbers, this is " + std::string(describe(node.type)) +
+                               (node.items.empty() ? "" : " of " + std::to_string(node.items.size())));
         std::array<double, 3> v{};
         for (std::size_t k = 0; k < 3; ++k) v[k] = number(node.items[k], key + "[" + std::to_string(k) + "]");
         return {v[0], v[1], v[2]};
@@ -266,7 +268,8 @@ void check_at(const Scene& scene, const std::function<void(std::size_t pin, cons
 /// The text of --set as JSON: itself when it is JSON, a list without its brackets, or a bare word.
 Document value_document(std::string_view value, const std::string& source) {
     const std::string text(value);
-    if (text.find(',') != std::string::npos && text.front() != '[' && text.front() != '"')
+    const char first = text[std::min(text.find_first_not_of(" \t"), text.size() - 1)];
+    if (text.find(',') != std::string::npos && first != '[' && first != '"')
         return Document::parse("[" + text + "]", source);
     try {
         return Document::parse(text, source);

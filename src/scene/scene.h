@@ -15,7 +15,7 @@ struct Camera {
     double distance = 2.2;            ///< m
     double yaw = 30;                  ///< degrees; 0 looks from +z, 90 from +x
     double pitch = 20;                ///< degrees above the horizon
-    double fov = 45;                  ///< degrees from bottom to top of the picture
+    double fov = 45;                  ///< degrees, across the shorter side of the picture
     bool operator==(const Camera&) const = default;
 };
 

@@ -12,7 +12,7 @@
 namespace clothlab::ui {
 namespace {
 
-void move_camera(Lab& lab, float panel_height) {
+void move_camera(Lab& lab, float shorter_side) {
     const ImGuiIO& io = ImGui::GetIO();
     scene::Camera camera = scene::camera_of(lab.scene);
     const scene::Camera before = camera;
@@ -22,9 +22,9 @@ void move_camera(Lab& lab, float panel_height) {
             camera.yaw = std::remainder(camera.yaw - 0.35 * dx, 360.0);
             camera.pitch = std::clamp(camera.pitch + 0.35 * dy, -89.0, 89.0);
         } else {
-            // The point under the mouse follows it: a panel's height is what the field of view spans at the target.
+            // The point under the mouse follows it: the shorter side is what the field of view spans at the target.
             const double per_pixel =
-                2 * camera.distance * std::tan(camera.fov * 0.00872664625997) / static_cast<double>(panel_height);
+                2 * camera.distance * std::tan(camera.fov * 0.00872664625997) / static_cast<double>(shorter_side);
             const scene::CameraFrame f = scene::frame(camera);
             const double r = -dx * per_pixel, u = dy * per_pixel;
             camera.target = {camera.target.x + r * f.right.x + u * f.up.x, camera.target.y + r * f.right.y + u * f.up.y,
@@ -111,7 +111,7 @@ void draw_viewport(Lab& lab) {
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
     ImGui::SetItemKeyOwner(ImGuiKey_MouseWheelY);
-    move_camera(lab, at_least_one.y);
+    move_camera(lab, std::min(at_least_one.x, at_least_one.y));
     draw_legend(lab, corner);
     draw_messages(lab, corner, size.x);
 }

@@ -74,7 +74,7 @@ void edit_number(Lab& lab, const Field& f) {
     const bool waits = f.effect == Effect::restart;
     const bool pending = lab.pending && lab.pending->key == f.key;
     double value = (pending ? lab.pending->value : f.get(lab.scene)) * shown.factor;
-    const std::string format = format_with_unit(whole ? "%.0f" : "%.4g", shown.unit);
+    const std::string format = format_with_unit(whole ? "%.0f" : "%.7g", shown.unit);
     // Typing may leave the slider's range; what the scene does not allow is refused by assign().
     const ImGuiSliderFlags flags =
         ImGuiSliderFlags_NoRoundToFormat | (shown.scale == scene::Scale::logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
@@ -154,7 +154,7 @@ void field_row(Lab& lab, std::string_view key) {
         case FieldType::choice: edit_choice(lab, f); break;
         case FieldType::vector: {
             sim::Vec3 v = f.get_vector(lab.scene);
-            if (edit_vector(v, f.shown.min, f.shown.max, "%.4g")) f.set_vector(lab.scene, v);
+            if (edit_vector(v, f.shown.min, f.shown.max, "%.5g")) f.set_vector(lab.scene, v);
             break;
         }
         case FieldType::number:

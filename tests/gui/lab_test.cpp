@@ -281,19 +281,27 @@ TEST_CASE("A window of one pixel is drawn, and the lab comes back from it") {
     CHECK(driver.lab().snapshot->frame == 1);
 }
 
-TEST_CASE("At twice the scale the panels are still all there") {
-    app::LabOptions options;
-    options.window = app::Window::Kind::offscreen;
-    options.width = 2560;
-    options.height = 1600;
-    options.keep_layout = false;
-    options.scale = 2;
-    const auto file = app::scene_path("two-pins");
-    app::LabApp app(options, scene::load_scene(file), file);
-    app.show_frame(1);
-    CHECK(ImGui::GetStyle().FontScaleDpi == 2);
-    CHECK(ImGui::GetDrawData()->DisplaySize.x == 2560);
-    for (const ui::PanelReport& panel : app.lab().report) CHECK(panel.drawn);
+TEST_CASE("At twice the scale everything is twice as large, the default layout too") {
+    const auto reports = [](float scale) {
+        app::LabOptions options;
+        options.window = app::Window::Kind::offscreen;
+        options.width = static_cast<int>(1280 * scale);
+        options.height = static_cast<int>(800 * scale);
+        options.keep_layout = false;
+        options.scale = scale;
+        const auto file = app::scene_path("two-pins");
+        app::LabApp app(options, scene::load_scene(file), file);
+        app.show_frame(1);
+        CHECK(ImGui::GetStyle().FontScaleDpi == scale);
+        return app.lab().report;
+    };
+    const auto once = reports(1), twice = reports(2);
+    for (std::size_t i = 0; i < ui::panel_count; ++i) {
+        INFO(once[i].name);
+        CHECK(twice[i].drawn);
+        CHECK(std::abs(twice[i].width - 2 * once[i].width) < 8);
+        CHECK(std::abs(twice[i].height - 2 * once[i].height) < 8);
+    }
 }
 
 TEST_CASE("A layout that the user changed is there again when the lab is reopened") {

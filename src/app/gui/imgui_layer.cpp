@@ -6,13 +6,41 @@
 #include <imgui_impl_opengl3.h>
 #include <imgui_internal.h>  // ClearIniSettings
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <string>
 
 #include "app/core/data_folder.h"
+#include "scene/io.h"
 #include "ui/theme.h"
 
 namespace clothlab::app {
 namespace fs = std::filesystem;
+namespace {
+
+/// The layout file's pixels are those of a display of scale 1: multiplies every Pos=, Size= and SizeRef=.
+std::string scaled_layout(const std::string& text, float scale) {
+    std::string result;
+    std::size_t done = 0;
+    while (done < text.size()) {
+        std::size_t at = std::string::npos;
+        for (const char* name : {"Pos=", "Size=", "SizeRef="})
+            if (const std::size_t found = text.find(name, done); found != std::string::npos)
+                at = std::min(at, found + std::strlen(name));
+        int x = 0, y = 0, length = 0;
+        if (at == std::string::npos || std::sscanf(text.c_str() + at, "%d,%d%n", &x, &y, &length) != 2) break;
+        result += text.substr(done, at - done);
+        const auto pixels = [scale](int v) { return std::to_string(std::lround(static_cast<float>(v) * scale)); };
+        result += pixels(x) + "," + pixels(y);
+        done = at + static_cast<std::size_t>(length);
+    }
+    return result + text.substr(done);
+}
+
+}  // namespace
 
 ImGuiLayer::ImGuiLayer(Window& window, fs::path layout, fs::path default_layout, float scale)
     : window_(window), layout_(std::move(layout)), default_layout_(std::move(default_layout)), forced_scale_(scale) {
@@ -29,7 +57,10 @@ ImGuiLayer::ImGuiLayer(Window& window, fs::path layout, fs::path default_layout,
         throw;
     }
     std::error_code error;
-    load_layout(!layout_.empty() && fs::exists(layout_, error) ? layout_ : default_layout_);
+    if (!layout_.empty() && fs::exists(layout_, error))
+        ImGui::LoadIniSettingsFromDisk(layout_.string().c_str());
+    else
+        default_layout_wanted_ = true;
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 410 core");
 }
@@ -42,13 +73,13 @@ ImGuiLayer::~ImGuiLayer() {
 }
 
 void ImGuiLayer::begin_frame() {
-    if (reset_layout_) load_layout(default_layout_);
-    reset_layout_ = false;
     const float scale = forced_scale_ > 0 ? forced_scale_ : window_.content_scale();
     if (scale != scale_) {
         scale_ = scale;
         ui::apply_theme(scale);
     }
+    if (default_layout_wanted_) load_default_layout();
+    default_layout_wanted_ = false;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
@@ -66,9 +97,10 @@ void ImGuiLayer::end_frame(unsigned framebuffer) {
     if (ImGui::GetIO().WantSaveIniSettings) save_layout_if_changed();
 }
 
-void ImGuiLayer::load_layout(const fs::path& file) {
+void ImGuiLayer::load_default_layout() {
     ImGui::ClearIniSettings();
-    ImGui::LoadIniSettingsFromDisk(file.string().c_str());
+    const std::string layout = scaled_layout(scene::read_text_file(default_layout_), scale_);
+    ImGui::LoadIniSettingsFromMemory(layout.c_str(), layout.size());
 }
 
 void ImGuiLayer::save_layout_if_changed() {

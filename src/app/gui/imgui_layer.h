@@ -22,19 +22,19 @@ public:
     /// Draws the frame into a framebuffer object of the window's size (0: the window itself).
     void end_frame(unsigned framebuffer);
     /// Back to the default layout with the next frame.
-    void reset_layout() { reset_layout_ = true; }
+    void reset_layout() { default_layout_wanted_ = true; }
 
     ImGuiContext* context() const { return context_; }
 
 private:
-    void load_layout(const std::filesystem::path& file);
+    void load_default_layout();
     void save_layout_if_changed();
 
     Window& window_;
     std::filesystem::path layout_, default_layout_;
     ImGuiContext* context_ = nullptr;
     float forced_scale_, scale_ = 0;
-    bool reset_layout_ = false;
+    bool default_layout_wanted_ = false;
 };
 
 /// $XDG_CONFIG_HOME/clothlab/imgui.ini or ~/.config/clothlab/imgui.ini; empty when there is no home.

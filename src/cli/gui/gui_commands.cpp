@@ -85,7 +85,7 @@ public:
     render::Image picture(int frame) override {
         while (simulation_->frame() < static_cast<std::uint64_t>(frame)) simulation_->step_frame();
         simulation_->capture(snapshot_);
-        renderer_.draw(app::to_render(scene_, &snapshot_), target_);
+        renderer_.draw(app::to_render(scene_, &snapshot_, static_cast<double>(target_.width()) / target_.height()), target_);
         return target_.read();
     }
 
