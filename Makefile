@@ -12,6 +12,8 @@ preset := $(if $(filter ON,$(gui)),release,headless)
 dir := $(if $(filter ON,$(gui)),build,build/headless)
 needs := $(if $(filter ON,$(gui)),gui)
 jobs := $(shell nproc)
+# A user's newer compiler may know a warning that ours does not; in CI each is an error.
+werror := CLOTHLAB_WERROR:BOOL=$(if $(CI),ON,OFF)
 bundle := $(if $(CLOTHLAB_IMGUI_BUNDLE_DIR),$(abspath $(CLOTHLAB_IMGUI_BUNDLE_DIR)),$(CURDIR)/third_party/imgui-bundle)
 
 # $(call configure,PRESET,FOLDER,GUI,CACHE-LINE...): only if the folder is not configured so already; ninja itself
@@ -48,7 +50,7 @@ help:
 
 build:
 	@cmake/setup.sh $(needs)
-	$(call configure,$(preset),$(dir),$(gui),$(tests_if_configured))
+	$(call configure,$(preset),$(dir),$(gui),$(tests_if_configured) $(werror))
 	@cmake --build $(dir) --target clothlab
 
 run: build
@@ -56,7 +58,7 @@ run: build
 
 test:
 	@cmake/setup.sh tests $(needs)
-	$(call configure,$(preset),$(dir),$(gui),CLOTHLAB_TESTS:BOOL=ON)
+	$(call configure,$(preset),$(dir),$(gui),CLOTHLAB_TESTS:BOOL=ON $(werror))
 	cmake --build $(dir)
 	ctest --preset $(preset) --parallel $(jobs)
 

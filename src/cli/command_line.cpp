@@ -1,6 +1,7 @@
 #include "cli/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <stdexcept>
 #include <cstdio>
 #include <iostream>
 

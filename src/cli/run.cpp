@@ -1,4 +1,8 @@
 // `clothlab run`: a scene without a picture, and its numbers.
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <stdexcept>
 #include <charconv>
 #include <chrono>
 #include <cmath>

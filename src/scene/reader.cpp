@@ -1,5 +1,6 @@
 // From JSON to a scene. Strict: whatever is not understood is an error, because a misspelt stiffness must not default
 // silently.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>

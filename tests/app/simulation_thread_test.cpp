@@ -2,6 +2,7 @@
 #include "app/core/simulation_thread.h"
 
 #include <catch2/catch_test_macros.hpp>
+#include <algorithm>
 #include <chrono>
 
 #include "sim/simulation.h"

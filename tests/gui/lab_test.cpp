@@ -2,6 +2,8 @@
 #include <imgui.h>
 
 #include <catch2/catch_test_macros.hpp>
+#include <array>
+#include <cmath>
 #include <fstream>
 
 #include <unistd.h>

@@ -1,4 +1,5 @@
 // The pictures that the renderer draws, judged by claims about their pixels and by what it says that it drew.
+#include <array>
 #include <algorithm>
 #include <cmath>
 #include <limits>

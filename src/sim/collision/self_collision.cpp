@@ -1,5 +1,6 @@
 #include "sim/collision/self_collision.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <type_traits>
