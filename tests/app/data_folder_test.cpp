@@ -85,8 +85,8 @@ TEST_CASE("A file that is nowhere is named, with all the folders where it was lo
         FAIL("found");
     } catch (const std::runtime_error& e) {
         const std::string what = e.what();
-        for (const std::string& part : {std::string("no-such-file.frag"), folder.path().string(),
-                                        checkout().string(), std::string("CLOTHLAB_DATA")})
+        for (const std::string& part : {std::string("no-such-file.frag"), folder.path().string(), checkout().string(),
+                                        std::string("CLOTHLAB_DATA")})
             REQUIRE(what.find(part) != std::string::npos);
     }
 }

@@ -1,8 +1,8 @@
 // The simulation's thread does what it is asked, in order, and never makes anybody wait for a step.
 #include "app/core/simulation_thread.h"
 
-#include <catch2/catch_test_macros.hpp>
 #include <algorithm>
+#include <catch2/catch_test_macros.hpp>
 #include <chrono>
 
 #include "sim/simulation.h"
@@ -26,7 +26,7 @@ sim::Description small_cloth() {
 /// A cloth whose steps take long.
 sim::Description big_cloth() {
     sim::Description d;
-    d.cloth.num_width_points = d.cloth.num_height_points = 600;
+    d.cloth.num_width_points = d.cloth.num_height_points = sanitized ? 250 : 600;
     return d;
 }
 
@@ -122,7 +122,8 @@ TEST_CASE("Playing goes on until it is paused, and stepping pauses it") {
     app::SimulationThread thread;
     thread.start(small_cloth());
     thread.play(true);
-    const app::Published playing = wait_for(thread, [](const app::Published& p) { return p.snapshot && p.snapshot->steps > 20; });
+    const app::Published playing =
+        wait_for(thread, [](const app::Published& p) { return p.snapshot && p.snapshot->steps > 20; });
     REQUIRE(playing.playing);
     thread.play(false);
     const app::Published paused = finished(thread);
@@ -147,6 +148,7 @@ TEST_CASE("A live change keeps time and steps and acts from the next step on") {
     app::SimulationThread thread;
     thread.start(description);
     thread.step(12);
+    thread.finish(); // a change acts at once, not after the steps that are still to be taken
     description.cloth.ks = 20;
     description.stepping.gravity = {1, 0, 0};
     description.stepping.substeps = 9;
@@ -246,17 +248,15 @@ TEST_CASE("A first description without meaning is refused, and the next one is t
     REQUIRE(shows(thread.latest(), *sim::Simulation::create(small_cloth())));
 }
 
-TEST_CASE("Playing aims at the speed that was set") {
-    // How fast a machine is, is not for a test; that a thousandth of real time is waited for, is.
+TEST_CASE("Slow motion waits for the next frame, and shows the one it has meanwhile") {
     app::SimulationThread thread;
     thread.start(small_cloth());
-    thread.set_speed(1e-3); // the next frame is due in 11 s
+    thread.set_speed(1e-6); // the next frame is due in three hours
     thread.play(true);
     wait_for(thread, [](const app::Published& p) { return p.snapshot && p.snapshot->frame == 1; });
     REQUIRE(finished(thread).snapshot->frame == 1); // it waits, so that finish() returns
     REQUIRE(thread.latest().playing);
     thread.set_speed(1e9);
-    thread.play(true);
     wait_for(thread, [](const app::Published& p) { return p.snapshot->frame > 20; });
 }
 
@@ -303,7 +303,7 @@ TEST_CASE("Commands are taken while a step is under way, and the thread ends whi
     const auto before = thread->latest().snapshot;
     sim::Description description = big_cloth();
     int taken = 0;
-    for (; taken < 1000 && thread->latest().snapshot == before; ++taken) {
+    for (; taken < 200 && thread->latest().snapshot == before; ++taken) {
         description.cloth.ks += 1;
         thread->change(description);
     }

@@ -84,6 +84,19 @@ TEST_CASE("The transport's buttons do the same") {
     CHECK(driver.lab().snapshot->steps == 0);
 }
 
+TEST_CASE("Space plays also after a click on a button, and does not click it again") {
+    LabDriver driver;
+    REQUIRE(driver.act([](ImGuiTestContext* user) { user->ItemClick("###Transport/" ICON_FA_FORWARD_STEP "  Frame"); }));
+    REQUIRE(driver.act([](ImGuiTestContext* user) {
+        user->KeyPress(ImGuiKey_Space);
+        user->Yield(2);
+        user->KeyPress(ImGuiKey_Space);
+    }));
+    for (int i = 0; i < 1000 && driver.lab().playing; ++i) driver.frame();
+    CHECK_FALSE(driver.lab().playing);
+    CHECK(driver.lab().snapshot->steps > 30);  // played, and not to the end of one frame as the button would
+}
+
 TEST_CASE("A value typed into a slider reaches the running simulation, and reset brings the scene's back") {
     LabDriver driver;
     REQUIRE(driver.act([](ImGuiTestContext* user) {

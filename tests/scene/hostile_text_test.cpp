@@ -112,7 +112,8 @@ TEST_CASE("Noise is no scene") {
         std::string noise(random.below(200), '\0');
         const bool printable = seed % 2 == 0;
         for (char& c : noise)
-            c = static_cast<char>(printable ? ' ' + static_cast<int>(random.below(95)) : static_cast<int>(random.below(256)));
+            c = static_cast<char>(printable ? ' ' + static_cast<int>(random.below(95))
+                                            : static_cast<int>(random.below(256)));
         INFO("seed " << seed);
         REQUIRE_FALSE(is_scene(noise));
         REQUIRE_FALSE(is_scene("{" + noise));

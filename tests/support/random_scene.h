@@ -91,9 +91,10 @@ public:
 
     /// UTF-8 with all that JSON has to escape.
     std::string text() {
-        static const std::string pieces[] = {"\"", "\\",   "\n",   "\t",   "\r",     "\x01", std::string(1, '\0'), "/",
-                                             "ä",  "布",   "🧵",   "\x7f", "\u2028", "a",    "Z",                  " ",
-                                             "{",  "\\u0", "\\\"", "//",   "\uffff", "'",    "\b",                 "\f"};
+        static const std::string pieces[] = {"\"", "\\", "\n", "\t",   "\r",   "\x01",   std::string(1, '\0'),
+                                             "/",  "ä",  "布", "🧵", "\x7f", "\u2028", "a",
+                                             "Z",  " ",  "{",  "\\u0", "\\\"", "//",     "\uffff",
+                                             "'",  "\b", "\f"};
         std::string result;
         for (std::uint64_t n = below(12); n > 0; --n)
             result += pieces[below(std::size(pieces))];

@@ -91,7 +91,11 @@ struct SimulationThread::Worker {
 
     /// Takes one step if there is anything to do now; otherwise says until when there is not.
     bool work(std::optional<Clock::time_point>& wait_until) {
-        if (!simulation) return false;
+        if (!simulation) {
+            steps_to_take = 0;  // there is nothing to step
+            frames_to_take = 0;
+            return false;
+        }
         if (steps_to_take > 0) {
             take_step();
             --steps_to_take;
@@ -135,13 +139,15 @@ struct SimulationThread::Worker {
         factor_time = simulation->time();
     }
 
-    bool idle() const { return !playing && steps_to_take == 0 && frames_to_take == 0; }
+    bool has_steps_to_take() const { return steps_to_take > 0 || frames_to_take > 0; }
+    bool idle() const { return !playing && !has_steps_to_take(); }
+
+    Clock::time_point next_publication() const {
+        return published_at + std::chrono::duration_cast<Clock::duration>(Seconds(publish_interval));
+    }
 
     /// Whether the state as it is now is worth showing.
-    bool worth_publishing() const {
-        if (!dirty) return false;
-        return idle() || seconds(Clock::now() - published_at) >= publish_interval;
-    }
+    bool worth_publishing() const { return dirty && (idle() || Clock::now() >= next_publication()); }
 
     std::shared_ptr<const sim::Snapshot> snapshot() {
         if (!simulation) return nullptr;
@@ -244,7 +250,7 @@ void SimulationThread::run() {
             const std::lock_guard lock(mutex_);
             if (quit_) return;
             commands.swap(commands_);
-            busy_ = true;
+            if (!commands.empty()) busy_ = true;
         }
         for (const Command& command : commands) command(worker);
         commands.clear();
@@ -256,11 +262,18 @@ void SimulationThread::run() {
             const std::lock_guard lock(mutex_);
             published_ = {std::move(snapshot), worker.run, worker.playing, worker.real_time_factor, worker.error};
         }
+        if (worker.has_steps_to_take()) continue;
+        {
+            // Playing is never done; what was asked for is.
+            const std::lock_guard lock(mutex_);
+            busy_ = false;
+            idle_.notify_all();
+        }
         if (worked) continue;
+        // In slow motion the next frame may be far off; what has been done is shown before.
+        if (wait_until && worker.dirty) wait_until = std::min(*wait_until, worker.next_publication());
 
         std::unique_lock lock(mutex_);
-        busy_ = false;
-        idle_.notify_all();
         const auto called = [this] { return quit_ || !commands_.empty(); };
         if (wait_until)
             wake_.wait_until(lock, *wait_until, called);

@@ -47,8 +47,8 @@ public:
     void set_speed(double speed);
 
     Published latest() const;
-    /// Waits until all that was asked for so far has been done (steps taken, scenes built): for tests and for pictures
-    /// without a display, not for the window.
+    /// Waits until all that was asked for so far has been done (steps taken, scenes built, playing begun): for tests and
+    /// for pictures without a display, not for the window.
     void finish();
 
 private:
@@ -61,7 +61,8 @@ private:
     std::condition_variable wake_, idle_;
     std::deque<Command> commands_;
     Published published_;
-    bool quit_ = false, busy_ = false;
+    bool quit_ = false;
+    bool busy_ = false;  ///< with commands taken from the queue, and the steps that they ask for
     std::thread thread_;
 };
 

@@ -1,0 +1,142 @@
+// The commands that draw: `clothlab render`, and the lab where there is no display.
+#include <unistd.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_exception.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "app/core/data_folder.h"
+#include "cli/gui/gui_commands.h"
+#include "render/image.h"
+#include "scene/error.h"
+
+namespace clothlab::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::ContainsSubstring;
+using Catch::Matchers::MessageMatches;
+
+class Folder {
+public:
+    Folder() : path_(fs::temp_directory_path() / ("clothlab-commands-" + std::to_string(::getpid()))) {
+        fs::create_directories(path_);
+    }
+    ~Folder() { fs::remove_all(path_); }
+    std::string operator/(const char* name) const { return (path_ / name).string(); }
+
+private:
+    fs::path path_;
+};
+
+cli::RenderArguments picture_of(const std::string& scene, const std::string& output) {
+    cli::RenderArguments arguments;
+    arguments.scene.scene = scene;
+    arguments.frame = 2;
+    arguments.width = 320;
+    arguments.height = 200;
+    arguments.output = output;
+    return arguments;
+}
+
+int render(const cli::RenderArguments& arguments) { return cli::gui_commands().render(arguments); }
+
+}  // namespace
+
+TEST_CASE("render draws the viewport or the whole lab, of the size asked for") {
+    const Folder folder;
+    cli::RenderArguments arguments = picture_of("two-pins", folder / "scene.png");
+    REQUIRE(render(arguments) == 0);
+    const render::Image scene = render::read_png(arguments.output);
+    CHECK(scene.width == 320);
+    CHECK(scene.height == 200);
+    arguments.ui = true;
+    arguments.output = folder / "lab.png";
+    REQUIRE(render(arguments) == 0);
+    const render::Image lab = render::read_png(arguments.output);
+    CHECK(lab.width == 320);
+    CHECK(lab.height == 200);
+    CHECK(render::difference(scene, lab) > 0.02);
+}
+
+TEST_CASE("Frame, shader, camera and settings each change the picture") {
+    const Folder folder;
+    const cli::RenderArguments plain = picture_of("two-pins", folder / "plain.png");
+    REQUIRE(render(plain) == 0);
+    const render::Image expected = render::read_png(plain.output);
+    const auto differs = [&](cli::RenderArguments arguments) {
+        arguments.output = folder / "other.png";
+        REQUIRE(render(arguments) == 0);
+        return render::difference(render::read_png(arguments.output), expected) > 0.002;
+    };
+    CHECK_FALSE(differs(plain));
+    cli::RenderArguments later = plain, wireframe = plain, camera = plain, setting = plain;
+    later.frame = 40;
+    CHECK(differs(later));
+    wireframe.shader = "wireframe";
+    CHECK(differs(wireframe));
+    std::ofstream(folder / "camera.json") << R"({"target": [0.5, 0.9, 0.5], "distance": 5, "yaw": 90, "pitch": 60})";
+    camera.camera = folder / "camera.json";
+    CHECK(differs(camera));
+    setting.scene.settings = {"cloth.offset=0.3,0,0"};
+    CHECK(differs(setting));
+}
+
+TEST_CASE("A picture that cannot be drawn or written is refused with a sentence") {
+    const Folder folder;
+    cli::RenderArguments arguments = picture_of("two-pins", folder / "picture.gif");
+    CHECK_THROWS_MATCHES(render(arguments), scene::SceneError, MessageMatches(ContainsSubstring("FILE.png")));
+    arguments.output = folder / "picture.png";
+    arguments.shader = "velvet";
+    CHECK_THROWS_MATCHES(render(arguments), scene::SceneError,
+                         MessageMatches(ContainsSubstring("velvet") && ContainsSubstring("diffuse")));
+    arguments.shader.clear();
+    arguments.camera = folder / "none.json";
+    CHECK_THROWS_MATCHES(render(arguments), scene::SceneError, MessageMatches(ContainsSubstring("none.json")));
+    arguments.camera.clear();
+    arguments.output = folder / "no/folder/picture.png";
+    CHECK_THROWS_MATCHES(render(arguments), std::runtime_error, MessageMatches(ContainsSubstring("no/folder/picture.png")));
+}
+
+TEST_CASE("A film is an MP4 file, also of an odd size; without ffmpeg the command says what is missing") {
+    const Folder folder;
+    cli::RenderArguments arguments = picture_of("two-pins", folder / "it's a film.mp4");
+    arguments.width = 161;
+    arguments.height = 101;
+    arguments.frame = 9;
+    if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0) {
+        CHECK_THROWS_MATCHES(render(arguments), std::runtime_error, MessageMatches(ContainsSubstring("package ffmpeg")));
+        return;
+    }
+    REQUIRE(render(arguments) == 0);
+    std::string head(12, '\0');
+    std::ifstream(arguments.output, std::ios::binary).read(head.data(), 12);
+    CHECK(head.substr(4, 4) == "ftyp");
+    CHECK(fs::file_size(arguments.output) > 1000);
+}
+
+TEST_CASE("With no display the lab draws itself into a picture with a draped cloth") {
+    ::unsetenv("DISPLAY");
+    ::unsetenv("WAYLAND_DISPLAY");
+    ::unsetenv("WAYLAND_SOCKET");
+    const Folder folder;
+    cli::LabArguments arguments;
+    arguments.scene.settings = {"cloth.num_width_points=30", "cloth.num_height_points=30"};
+    arguments.picture = folder / "lab.png";
+    REQUIRE(cli::gui_commands().lab(arguments) == 0);
+    const render::Image lab = render::read_png(arguments.picture);
+    CHECK(lab.width == 1440);
+    CHECK(lab.height == 900);
+    int cloth = 0;  // pixels of the cloth's colour inside the viewport
+    for (int y = 50; y < 780; ++y)
+        for (int x = 280; x < 1060; ++x) {
+            const std::uint8_t* p = lab.pixel(x, y);
+            cloth += p[0] > 140 && p[1] < 150 && p[2] < 120 ? 1 : 0;
+        }
+    CHECK(cloth > 10000);
+}
+
+}  // namespace clothlab::test
