@@ -16,7 +16,9 @@ namespace clothlab::app {
 namespace fs = std::filesystem;
 namespace {
 
-fs::path layout_file(const LabOptions& options) { return options.keep_layout ? user_layout_file() : fs::path(); }
+fs::path layout_file(const LabOptions& options) {
+    return options.keep_layout ? user_layout_file() : fs::path();
+}
 
 std::vector<ui::SceneEntry> scene_entries() {
     std::vector<ui::SceneEntry> entries;
@@ -31,15 +33,15 @@ std::vector<ui::SceneEntry> scene_entries() {
     return entries;
 }
 
-}  // namespace
+} // namespace
 
 LabApp::LabApp(const LabOptions& options, scene::Scene scene, fs::path file)
     : window_(options.window, options.width, options.height, "clothlab"),
-      imgui_(window_, layout_file(options), data_path("imgui.ini"), options.scale),
-      renderer_(data_path("shaders")),
+      imgui_(window_, layout_file(options), data_path("imgui.ini"), options.scale), renderer_(data_path("shaders")),
       // On the screen smooth motion matters more than smooth edges; a picture has time.
       viewport_(1, 1, options.window == Window::Kind::desktop && render::software_rendering() ? 1 : 4) {
-    if (options.window == Window::Kind::offscreen) whole_.emplace(options.width, options.height, 1);
+    if (options.window == Window::Kind::offscreen)
+        whole_.emplace(options.width, options.height, 1);
     lab_.open.fill(true);
     lab_.scenes = scene_entries();
     lab_.shaders = shipped_shaders();
@@ -49,7 +51,8 @@ LabApp::LabApp(const LabOptions& options, scene::Scene scene, fs::path file)
     }
     lab_.has_file_dialogs = options.window == Window::Kind::desktop && FileDialog::available();
     window_.on_drop = [this](const std::vector<std::string>& files) {
-        if (!files.empty()) lab_.ask(ui::OpenScene{files.front()});
+        if (!files.empty())
+            lab_.ask(ui::OpenScene{files.front()});
     };
     set_scene(std::move(scene), std::move(file));
 }
@@ -60,13 +63,15 @@ void LabApp::run() {
     // Paused and untouched, the lab rests: a few frames a second keep its state fresh.
     for (;;) {
         const bool busy = lab_.playing || ImGui::IsAnyItemActive() || dialog_;
-        if (!frame(busy ? 0 : 0.05)) return;
+        if (!frame(busy ? 0 : 0.05))
+            return;
     }
 }
 
 bool LabApp::frame(double wait_seconds) {
     window_.poll(wait_seconds);
-    if (window_.should_close() || quit_) return false;
+    if (window_.should_close() || quit_)
+        return false;
     if (window_.minimised()) {
         window_.poll(0.05);
         return true;
@@ -85,11 +90,12 @@ bool LabApp::frame(double wait_seconds) {
         whole_->bind();
         GLint bound = 0;
         glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
-        glDisable(GL_FRAMEBUFFER_SRGB);  // the interface's colours are sRGB already
+        glDisable(GL_FRAMEBUFFER_SRGB); // the interface's colours are sRGB already
         framebuffer = static_cast<unsigned>(bound);
     }
     imgui_.end_frame(framebuffer);
-    if (whole_) whole_->resolve();
+    if (whole_)
+        whole_->resolve();
     window_.swap();
     set_title();
     return !quit_;
@@ -101,18 +107,23 @@ void LabApp::take_published() {
     lab_.real_time_factor = now.real_time_factor;
     if (now.error != refusal_) {
         refusal_ = now.error;
-        if (!refusal_.empty()) say(true, refusal_);
+        if (!refusal_.empty())
+            say(true, refusal_);
     }
-    if (now.snapshot) lab_.snapshot = now.snapshot;
-    if (!lab_.snapshot) return;
+    if (now.snapshot)
+        lab_.snapshot = now.snapshot;
+    if (!lab_.snapshot)
+        return;
     const sim::Diagnostics& d = lab_.snapshot->diagnostics;
     const bool diverged = d.status == sim::Status::diverged;
-    if (diverged && !told_divergence_) say(true, "The simulation blew up and was paused: " + d.cause + ".");
+    if (diverged && !told_divergence_)
+        say(true, "The simulation blew up and was paused: " + d.cause + ".");
     told_divergence_ = diverged;
 }
 
 void LabApp::set_scene(scene::Scene scene, fs::path file) {
-    if (!scene.camera) scene.camera = scene::fitting_camera(scene.simulation);
+    if (!scene.camera)
+        scene.camera = scene::fitting_camera(scene.simulation);
     lab_.scene = lab_.loaded = scene;
     lab_.file = std::move(file);
     lab_.pending.reset();
@@ -142,14 +153,16 @@ void LabApp::pass_on_edits() {
             say(true, e.what());
         }
     }
-    if (!ImGui::IsAnyItemActive()) history_.settle(lab_.scene);
+    if (!ImGui::IsAnyItemActive())
+        history_.settle(lab_.scene);
 }
 
 void LabApp::carry_out_requests() {
     std::vector<ui::Request> requests;
     requests.swap(lab_.requests);
     const auto go_to = [this](std::optional<scene::Scene> scene) {
-        if (!scene) return;
+        if (!scene)
+            return;
         scene->camera = lab_.scene.camera;
         lab_.scene = std::move(*scene);
     };
@@ -157,21 +170,30 @@ void LabApp::carry_out_requests() {
         std::visit(
             [&](auto& r) {
                 using R = std::remove_reference_t<decltype(r)>;
-                if constexpr (std::is_same_v<R, ui::OpenScene>) open(r.file);
-                else if constexpr (std::is_same_v<R, ui::SaveScene>) save(r.file);
+                if constexpr (std::is_same_v<R, ui::OpenScene>)
+                    open(r.file);
+                else if constexpr (std::is_same_v<R, ui::SaveScene>)
+                    save(r.file);
                 else if constexpr (std::is_same_v<R, ui::BrowseForScene>)
                     dialog_ = std::make_unique<FileDialog>(
                         r.save ? FileDialog::Purpose::save : FileDialog::Purpose::open, lab_.file);
-                else if constexpr (std::is_same_v<R, ui::Screenshot>) screenshot();
-                else if constexpr (std::is_same_v<R, ui::Play>) simulation_.play(r.on);
-                else if constexpr (std::is_same_v<R, ui::StepFrame>) simulation_.step_frames(1);
-                else if constexpr (std::is_same_v<R, ui::StepSubstep>) simulation_.step(1);
-                else if constexpr (std::is_same_v<R, ui::Restart>) simulation_.start(lab_.scene.simulation);
+                else if constexpr (std::is_same_v<R, ui::Screenshot>)
+                    screenshot();
+                else if constexpr (std::is_same_v<R, ui::Play>)
+                    simulation_.play(r.on);
+                else if constexpr (std::is_same_v<R, ui::StepFrame>)
+                    simulation_.step_frames(1);
+                else if constexpr (std::is_same_v<R, ui::StepSubstep>)
+                    simulation_.step(1);
+                else if constexpr (std::is_same_v<R, ui::Restart>)
+                    simulation_.start(lab_.scene.simulation);
                 else if constexpr (std::is_same_v<R, ui::SetSpeed>) {
                     lab_.speed = r.speed;
                     simulation_.set_speed(r.speed);
-                } else if constexpr (std::is_same_v<R, ui::Undo>) go_to(history_.undo());
-                else if constexpr (std::is_same_v<R, ui::Redo>) go_to(history_.redo());
+                } else if constexpr (std::is_same_v<R, ui::Undo>)
+                    go_to(history_.undo());
+                else if constexpr (std::is_same_v<R, ui::Redo>)
+                    go_to(history_.redo());
                 else if constexpr (std::is_same_v<R, ui::ResetLayout>) {
                     lab_.open.fill(true);
                     imgui_.reset_layout();
@@ -185,9 +207,11 @@ void LabApp::carry_out_requests() {
 }
 
 void LabApp::draw_viewport() {
-    if (lab_.viewport_width < 1 || lab_.viewport_height < 1) return;  // the panel has not been drawn yet
+    if (lab_.viewport_width < 1 || lab_.viewport_height < 1)
+        return; // the panel has not been drawn yet
     Shown now{lab_.snapshot, lab_.scene, lab_.viewport_width, lab_.viewport_height};
-    if (now == shown_ && lab_.viewport_texture != 0) return;
+    if (now == shown_ && lab_.viewport_texture != 0)
+        return;
     viewport_.resize(now.width, now.height);
     try {
         draw_report_ = renderer_.draw(
@@ -218,7 +242,8 @@ void LabApp::screenshot() {
         std::snprintf(name, sizeof name, "clothlab-%04d.png", i);
         std::error_code error;
         const fs::path file = fs::current_path(error) / name;
-        if (fs::exists(file, error)) continue;
+        if (fs::exists(file, error))
+            continue;
         try {
             render::write_png(viewport_.read(), file);
             say(false, "The viewport was saved as " + file.string());
@@ -230,11 +255,13 @@ void LabApp::screenshot() {
 }
 
 void LabApp::poll_file_dialog() {
-    if (!dialog_ || !dialog_->ready()) return;
+    if (!dialog_ || !dialog_->ready())
+        return;
     const auto purpose = dialog_->purpose();
     const auto file = dialog_->result();
     dialog_.reset();
-    if (!file) return;
+    if (!file)
+        return;
     if (purpose == FileDialog::Purpose::open)
         open(*file);
     else
@@ -250,10 +277,12 @@ void LabApp::show_frame(int frame_number) {
     simulation_.finish();
     const Published now = simulation_.latest();
     const auto at = now.snapshot ? static_cast<int>(now.snapshot->frame) : 0;
-    if (frame_number > at) simulation_.step_frames(frame_number - at);
+    if (frame_number > at)
+        simulation_.step_frames(frame_number - at);
     simulation_.finish();
     // Panels take a few frames to settle: docking, tables and scroll bars learn their sizes by being drawn.
-    for (int i = 0; i < 4; ++i) frame();
+    for (int i = 0; i < 4; ++i)
+        frame();
 }
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

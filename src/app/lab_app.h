@@ -20,9 +20,9 @@ class FileDialog;
 
 struct LabOptions {
     Window::Kind window = Window::Kind::desktop;
-    int width = 1440, height = 900;  ///< of the window, in screen coordinates
-    bool keep_layout = true;         ///< load and save the user's layout; otherwise the default one is used
-    float scale = 0;                 ///< of the interface; 0: as the display says
+    int width = 1440, height = 900; ///< of the window, in screen coordinates
+    bool keep_layout = true;        ///< load and save the user's layout; otherwise the default one is used
+    float scale = 0;                ///< of the interface; 0: as the display says
 };
 
 class LabApp {
@@ -68,12 +68,12 @@ private:
     ImGuiLayer imgui_;
     render::Renderer renderer_;
     render::Target viewport_;
-    std::optional<render::Target> whole_;  ///< the window's picture, where framebuffer 0 holds none
+    std::optional<render::Target> whole_; ///< the window's picture, where framebuffer 0 holds none
     SimulationThread simulation_;
     ui::Lab lab_;
     History history_;
-    sim::Description passed_on_;    ///< what the simulation thread has been told
-    std::string refusal_;           ///< the simulation's last error that has been shown
+    sim::Description passed_on_; ///< what the simulation thread has been told
+    std::string refusal_;        ///< the simulation's last error that has been shown
     bool told_divergence_ = false;
 
     // What the viewport shows; while all of it stays the same, it is not drawn again.
@@ -89,4 +89,4 @@ private:
     bool quit_ = false;
 };
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

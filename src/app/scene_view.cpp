@@ -11,7 +11,7 @@ glm::vec3 to_glm(const sim::Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-}  // namespace
+} // namespace
 
 render::View to_view(const scene::Camera& camera, double aspect) {
     const scene::CameraFrame frame = scene::frame(camera);
@@ -48,4 +48,4 @@ render::Scene to_render(const scene::Scene& scene, const sim::Snapshot* snapshot
     return result;
 }
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

@@ -11,4 +11,4 @@ render::View to_view(const scene::Camera& camera, double aspect);
 /// `scene` and `snapshot` must outlive the result.
 render::Scene to_render(const scene::Scene& scene, const sim::Snapshot* snapshot, double aspect);
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

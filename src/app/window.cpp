@@ -19,12 +19,15 @@ bool is_set(const char* variable) {
     return value && *value;
 }
 
-/// The platform to ask GLFW for. Asking it for a Wayland display where there is none makes libwayland complain to the user.
+/// The platform to ask GLFW for. Asking it for a Wayland display where there is none makes libwayland complain to the
+/// user.
 int desktop_platform() {
 #ifdef __linux__
     const bool wayland = is_set("WAYLAND_DISPLAY") || is_set("WAYLAND_SOCKET");
-    if (!wayland && !is_set("DISPLAY")) throw NoDisplay("neither DISPLAY nor WAYLAND_DISPLAY is set");
-    if (!wayland) return GLFW_PLATFORM_X11;
+    if (!wayland && !is_set("DISPLAY"))
+        throw NoDisplay("neither DISPLAY nor WAYLAND_DISPLAY is set");
+    if (!wayland)
+        return GLFW_PLATFORM_X11;
 #endif
     return GLFW_ANY_PLATFORM;
 }
@@ -37,18 +40,19 @@ void set_context_hints(bool offscreen) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // the scene is drawn into a framebuffer of its own
+    glfwWindowHint(GLFW_DEPTH_BITS, 0); // the scene is drawn into a framebuffer of its own
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
 }
 
-}  // namespace
+} // namespace
 
 Window::Window(Kind kind, int width, int height, const std::string& title) : kind_(kind), title_(title) {
     const bool offscreen = kind == Kind::offscreen;
     glfwInitHint(GLFW_PLATFORM, offscreen ? GLFW_PLATFORM_NULL : desktop_platform());
     if (!glfwInit()) {
         const std::string why = last_error();
-        if (offscreen) throw std::runtime_error("GLFW cannot be initialised: " + why);
+        if (offscreen)
+            throw std::runtime_error("GLFW cannot be initialised: " + why);
         throw NoDisplay(why);
     }
     set_context_hints(offscreen);
@@ -65,11 +69,13 @@ Window::Window(Kind kind, int width, int height, const std::string& title) : kin
         glfwTerminate();
         throw std::runtime_error("OpenGL's functions cannot be loaded");
     }
-    if (!offscreen) glfwSwapInterval(1);
+    if (!offscreen)
+        glfwSwapInterval(1);
     glfwSetWindowUserPointer(handle_, this);
     glfwSetDropCallback(handle_, [](GLFWwindow* window, int count, const char** paths) {
         auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
-        if (self->on_drop) self->on_drop({paths, paths + count});
+        if (self->on_drop)
+            self->on_drop({paths, paths + count});
     });
 }
 
@@ -78,9 +84,13 @@ Window::~Window() {
     glfwTerminate();
 }
 
-bool Window::should_close() const { return glfwWindowShouldClose(handle_) != 0; }
+bool Window::should_close() const {
+    return glfwWindowShouldClose(handle_) != 0;
+}
 
-void Window::framebuffer_size(int& width, int& height) const { glfwGetFramebufferSize(handle_, &width, &height); }
+void Window::framebuffer_size(int& width, int& height) const {
+    glfwGetFramebufferSize(handle_, &width, &height);
+}
 
 bool Window::minimised() const {
     int width = 0, height = 0;
@@ -95,13 +105,15 @@ float Window::content_scale() const {
 }
 
 void Window::set_title(const std::string& title) {
-    if (title == title_) return;
+    if (title == title_)
+        return;
     title_ = title;
     glfwSetWindowTitle(handle_, title.c_str());
 }
 
 void Window::swap() {
-    if (kind_ == Kind::desktop) glfwSwapBuffers(handle_);
+    if (kind_ == Kind::desktop)
+        glfwSwapBuffers(handle_);
 }
 
 void Window::poll(double wait_seconds) {
@@ -111,4 +123,4 @@ void Window::poll(double wait_seconds) {
         glfwPollEvents();
 }
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

@@ -1,5 +1,5 @@
-// A GLFW window with an OpenGL context: on the desktop, or without any display on GLFW's null platform. One code path for
-// both; only what framebuffer 0 is good for differs.
+// A GLFW window with an OpenGL context: on the desktop, or without any display on GLFW's null platform. One code path
+// for both; only what framebuffer 0 is good for differs.
 #pragma once
 
 #include <functional>
@@ -49,4 +49,4 @@ private:
     std::string title_;
 };
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

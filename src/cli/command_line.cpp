@@ -1,9 +1,9 @@
 #include "cli/command_line.h"
 
 #include <CLI/CLI.hpp>
-#include <stdexcept>
 #include <cstdio>
 #include <iostream>
+#include <stdexcept>
 
 #include "app/core/data_folder.h"
 #include "scene/fields.h"
@@ -17,7 +17,8 @@ constexpr int usage_error = 2;
 void add_scene(CLI::App& app, SceneArguments& arguments, bool required) {
     auto* scene = app.add_option("scene", arguments.scene,
                                  "Scene file, or the name of one that clothlab comes with (clothlab list scenes)");
-    if (required) scene->required();
+    if (required)
+        scene->required();
     app.add_option("--set", arguments.settings,
                    "KEY=VALUE: set a parameter of the scene; repeat for more (clothlab list parameters)")
         ->take_all()
@@ -27,7 +28,8 @@ void add_scene(CLI::App& app, SceneArguments& arguments, bool required) {
 void add_run(CLI::App& app, RunArguments& a, int& status) {
     auto* run = app.add_subcommand("run", "Simulate a scene without a picture");
     add_scene(*run, a.scene, true);
-    auto* frames = run->add_option("--frames", a.frames, "Frames to simulate (default: 90)")->check(CLI::NonNegativeNumber);
+    auto* frames =
+        run->add_option("--frames", a.frames, "Frames to simulate (default: 90)")->check(CLI::NonNegativeNumber);
     run->add_option("--seconds", a.seconds, "Simulated seconds instead, rounded up to a whole frame")
         ->check(CLI::NonNegativeNumber)
         ->excludes(frames);
@@ -55,7 +57,8 @@ void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiC
     render->add_flag("--ui", a.ui, "Draw the whole lab, with its panels");
     render->add_option("-o,--output", a.output, "FILE.png or FILE.mp4")->required();
     render->final_callback([&] {
-        if (!gui.render) throw std::runtime_error("this clothlab was built without its GUI and cannot draw");
+        if (!gui.render)
+            throw std::runtime_error("this clothlab was built without its GUI and cannot draw");
         char end = 0;
         if (std::sscanf(size.c_str(), "%dx%d%c", &a.width, &a.height, &end) != 2 || a.width < 1 || a.height < 1 ||
             a.width > 16384 || a.height > 16384)
@@ -64,13 +67,14 @@ void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiC
     });
 }
 
-}  // namespace
+} // namespace
 
 scene::Scene SceneArguments::load() const {
     const std::filesystem::path file = app::scene_path(scene);
     std::error_code error;
     if (!std::filesystem::exists(file, error))
-        throw scene::SceneError(scene + ": there is no such file, and no scene of that name; see `clothlab list scenes`");
+        throw scene::SceneError(scene +
+                                ": there is no such file, and no scene of that name; see `clothlab list scenes`");
     scene::Scene result = scene::load_scene(file);
     for (const std::string& setting : settings) {
         const std::size_t equals = setting.find('=');
@@ -121,8 +125,8 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) {
             if (!gui.lab)
-                throw std::runtime_error(
-                    "this clothlab was built without its GUI and has no window; see clothlab --help for what it can do");
+                throw std::runtime_error("this clothlab was built without its GUI and has no window; see clothlab "
+                                         "--help for what it can do");
             status = gui.lab(lab);
         }
     } catch (const CLI::ParseError& e) {
@@ -141,4 +145,4 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
     return status;
 }
 
-}  // namespace clothlab::cli
+} // namespace clothlab::cli

@@ -14,25 +14,25 @@ namespace clothlab::cli {
 /// A scene and the parameters that the command line sets on top of it.
 struct SceneArguments {
     std::string scene;
-    std::vector<std::string> settings;  ///< KEY=VALUE
+    std::vector<std::string> settings; ///< KEY=VALUE
     /// Reads the scene and applies the settings. Throws scene::SceneError.
     scene::Scene load() const;
 };
 
 struct LabArguments {
     SceneArguments scene;
-    int latitude_lines = 0, longitude_lines = 0;  ///< of drawn spheres; 0: as the scene says
-    std::string picture = "clothlab.png";         ///< where the lab draws itself when there is no display
+    int latitude_lines = 0, longitude_lines = 0; ///< of drawn spheres; 0: as the scene says
+    std::string picture = "clothlab.png";        ///< where the lab draws itself when there is no display
 };
 
 struct RenderArguments {
     SceneArguments scene;
     int frame = 90;
     int width = 1280, height = 720;
-    std::string shader;  ///< empty: as the scene says
-    std::string camera;  ///< file; empty: as the scene says
-    bool ui = false;     ///< the whole lab, not the viewport alone
-    std::string output;  ///< .png or .mp4
+    std::string shader; ///< empty: as the scene says
+    std::string camera; ///< file; empty: as the scene says
+    bool ui = false;    ///< the whole lab, not the viewport alone
+    std::string output; ///< .png or .mp4
 };
 
 struct RunArguments {
@@ -57,4 +57,4 @@ int run(const RunArguments& arguments);
 int validate(const std::vector<std::string>& files);
 int list(const std::string& what, bool json);
 
-}  // namespace clothlab::cli
+} // namespace clothlab::cli

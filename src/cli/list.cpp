@@ -25,7 +25,8 @@ Json integrators() {
 
 Json shaders() {
     Json rows = Json::array();
-    for (const std::string& name : app::shipped_shaders()) rows.push_back({{"name", name}});
+    for (const std::string& name : app::shipped_shaders())
+        rows.push_back({{"name", name}});
     return rows;
 }
 
@@ -40,28 +41,32 @@ Json rules() {
 Json scenes() {
     Json rows = Json::array();
     for (const auto& file : app::shipped_scenes())
-        rows.push_back({{"name", file.stem().string()},
-                        {"help", scene::load_scene(file).description},
-                        {"file", file.string()}});
+        rows.push_back(
+            {{"name", file.stem().string()}, {"help", scene::load_scene(file).description}, {"file", file.string()}});
     return rows;
 }
 
 Json default_value(const scene::Field& f) {
     const scene::Scene scene;
     switch (f.type) {
-        case scene::FieldType::text: return f.get_text(scene);
-        case scene::FieldType::vector: {
-            const sim::Vec3 v = f.get_vector(scene);
-            return Json::array({v.x, v.y, v.z});
-        }
-        case scene::FieldType::boolean: return f.get(scene) != 0;
-        case scene::FieldType::choice: {
-            const auto index = static_cast<std::size_t>(f.get(scene));
-            if (f.choice_as_integer) return index;
-            return f.choices[index];
-        }
-        case scene::FieldType::integer: return static_cast<std::int64_t>(f.get(scene));
-        case scene::FieldType::number: break;
+    case scene::FieldType::text:
+        return f.get_text(scene);
+    case scene::FieldType::vector: {
+        const sim::Vec3 v = f.get_vector(scene);
+        return Json::array({v.x, v.y, v.z});
+    }
+    case scene::FieldType::boolean:
+        return f.get(scene) != 0;
+    case scene::FieldType::choice: {
+        const auto index = static_cast<std::size_t>(f.get(scene));
+        if (f.choice_as_integer)
+            return index;
+        return f.choices[index];
+    }
+    case scene::FieldType::integer:
+        return static_cast<std::int64_t>(f.get(scene));
+    case scene::FieldType::number:
+        break;
     }
     return f.get(scene);
 }
@@ -79,7 +84,9 @@ Json parameters() {
     return rows;
 }
 
-std::string cell(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+std::string cell(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
 
 /// Columns as wide as their widest cell; the last, the help text, runs on.
 void print_table(const Json& rows) {
@@ -97,7 +104,8 @@ void print_table(const Json& rows) {
         std::size_t i = 0;
         for (const auto& item : row.items()) {
             std::string text = cell(item.value());
-            if (i + 1 < widths.size()) text.resize(widths[i] + 2, ' ');
+            if (i + 1 < widths.size())
+                text.resize(widths[i] + 2, ' ');
             line += text;
             ++i;
         }
@@ -105,7 +113,7 @@ void print_table(const Json& rows) {
     }
 }
 
-}  // namespace
+} // namespace
 
 int list(const std::string& what, bool json) {
     const Json rows = what == "integrators" ? integrators()
@@ -114,10 +122,10 @@ int list(const std::string& what, bool json) {
                       : what == "scenes"    ? scenes()
                                             : parameters();
     if (json)
-        std::cout << rows.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";  // file names need not be UTF-8
+        std::cout << rows.dump(2, ' ', false, Json::error_handler_t::replace) << "\n"; // file names need not be UTF-8
     else
         print_table(rows);
     return 0;
 }
 
-}  // namespace clothlab::cli
+} // namespace clothlab::cli

@@ -1,16 +1,16 @@
 // `clothlab run`: a scene without a picture, and its numbers.
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
-#include <stdexcept>
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 
 #include "cli/command_line.h"
 #include "scene/io.h"
@@ -27,21 +27,22 @@ using Json = nlohmann::ordered_json;
 class Output {
 public:
     explicit Output(std::string name) : name_(std::move(name)) {
-        if (name_ == "-") return;
+        if (name_ == "-")
+            return;
         file_.open(name_, std::ios::binary | std::ios::trunc);
-        if (!file_) fail();
+        if (!file_)
+            fail();
     }
     void write(std::string_view text) { stream().write(text.data(), static_cast<std::streamsize>(text.size())); }
     void close() {
         stream().flush();
-        if (!stream()) fail();
+        if (!stream())
+            fail();
     }
 
 private:
     std::ostream& stream() { return name_ == "-" ? std::cout : file_; }
-    [[noreturn]] void fail() const {
-        throw std::runtime_error(name_ + ": cannot be written: " + std::strerror(errno));
-    }
+    [[noreturn]] void fail() const { throw std::runtime_error(name_ + ": cannot be written: " + std::strerror(errno)); }
     std::string name_;
     std::ofstream file_;
 };
@@ -114,7 +115,7 @@ void write_state(const std::string& file, const sim::Simulation& simulation) {
 }
 
 void resume(const std::string& file, sim::Simulation& simulation) {
-    constexpr std::uintmax_t max_size = std::uintmax_t{1} << 30;  // of the largest cloth in double precision: 192 MiB
+    constexpr std::uintmax_t max_size = std::uintmax_t{1} << 30; // of the largest cloth in double precision: 192 MiB
     const std::string text = scene::read_text_file(file, max_size);
     try {
         simulation.load_state(std::as_bytes(std::span(text)));
@@ -124,11 +125,14 @@ void resume(const std::string& file, sim::Simulation& simulation) {
 }
 
 std::uint64_t frames_to_run(const RunArguments& arguments, const sim::Description& description) {
-    if (arguments.frames) return static_cast<std::uint64_t>(*arguments.frames);
-    if (!arguments.seconds) return 90;
+    if (arguments.frames)
+        return static_cast<std::uint64_t>(*arguments.frames);
+    if (!arguments.seconds)
+        return 90;
     // 0.1 s at 90 frames/s is 9 frames, not 10, whatever the product rounds to.
     const double frames = *arguments.seconds * description.stepping.frames_per_second;
-    if (!(frames < 1e15)) throw scene::SceneError("--seconds: too long a run");
+    if (!(frames < 1e15))
+        throw scene::SceneError("--seconds: too long a run");
     return static_cast<std::uint64_t>(std::ceil(frames * (1 - 1e-12)));
 }
 
@@ -184,7 +188,7 @@ void print_table(const Json& json, const std::string& prefix = "") {
     }
 }
 
-}  // namespace
+} // namespace
 
 int run(const RunArguments& arguments) {
     if (arguments.csv == "-" && (arguments.json || arguments.hash))
@@ -192,7 +196,8 @@ int run(const RunArguments& arguments) {
     const scene::Scene scene = arguments.scene.load();
     const std::uint64_t frames = frames_to_run(arguments, scene.simulation);
     const auto simulation = sim::Simulation::create(scene.simulation);
-    if (!arguments.resume.empty()) resume(arguments.resume, *simulation);
+    if (!arguments.resume.empty())
+        resume(arguments.resume, *simulation);
     simulation->time_stages(true);
     std::optional<Output> csv;
     if (!arguments.csv.empty()) {
@@ -203,32 +208,39 @@ int run(const RunArguments& arguments) {
 
     using Clock = std::chrono::steady_clock;
     double wall_s = 0;
-    std::optional<std::string> divergence;  // the first one's cause: later states only repeat it
+    std::optional<std::string> divergence; // the first one's cause: later states only repeat it
     const std::uint64_t first_step = simulation->steps();
     for (std::uint64_t done = 1; done <= frames; ++done) {
         const auto start = Clock::now();
         simulation->step_frame();
         wall_s += std::chrono::duration<double>(Clock::now() - start).count();
-        if (csv && done % static_cast<std::uint64_t>(arguments.every) == 0) write_csv_frame(*csv, *simulation);
-        if (divergence) continue;
+        if (csv && done % static_cast<std::uint64_t>(arguments.every) == 0)
+            write_csv_frame(*csv, *simulation);
+        if (divergence)
+            continue;
         if (const sim::Diagnostics d = simulation->diagnose(); d.status == sim::Status::diverged)
             divergence = "by frame " + std::to_string(simulation->frame()) + ", " + d.cause;
     }
-    if (csv) csv->close();
-    if (!arguments.obj.empty()) write_obj(arguments.obj, *simulation, scene.name);
-    if (!arguments.state.empty()) write_state(arguments.state, *simulation);
+    if (csv)
+        csv->close();
+    if (!arguments.obj.empty())
+        write_obj(arguments.obj, *simulation, scene.name);
+    if (!arguments.state.empty())
+        write_state(arguments.state, *simulation);
 
     if (arguments.hash && !arguments.json) {
         std::cout << hex(simulation->hash()) << "\n";
         return 0;
     }
-    if (arguments.csv == "-") return 0;  // the table would end up among the rows
-    const Json json = results(arguments, scene, *simulation, frames, simulation->steps() - first_step, wall_s, divergence);
+    if (arguments.csv == "-")
+        return 0; // the table would end up among the rows
+    const Json json =
+        results(arguments, scene, *simulation, frames, simulation->steps() - first_step, wall_s, divergence);
     if (arguments.json)
-        std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";  // file names need not be UTF-8
+        std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n"; // file names need not be UTF-8
     else
         print_table(json);
     return 0;
 }
 
-}  // namespace clothlab::cli
+} // namespace clothlab::cli

@@ -20,4 +20,4 @@ int validate(const std::vector<std::string>& files) {
     return status;
 }
 
-}  // namespace clothlab::cli
+} // namespace clothlab::cli

@@ -12,7 +12,8 @@ namespace clothlab::render {
 /// not loaded.
 void require_gl();
 
-/// Whether the driver draws on the CPU (Mesa's llvmpipe or softpipe): every sample of a pixel then costs its full share.
+/// Whether the driver draws on the CPU (Mesa's llvmpipe or softpipe): every sample of a pixel then costs its full
+/// share.
 bool software_rendering();
 
 /// One OpenGL object: moved, never copied, deleted with its handle. 0 when empty.

@@ -10,7 +10,7 @@ namespace clothlab::scene {
 namespace {
 
 constexpr std::size_t max_depth = 32;
-constexpr std::size_t max_keys = 1000;  ///< in one object: finding a repeated one takes quadratic time
+constexpr std::size_t max_keys = 1000; ///< in one object: finding a repeated one takes quadratic time
 
 /// nlohmann's SAX callbacks do not say where they are, so the input iterator does: it reports how far it has been read.
 struct TrackedIterator {
@@ -56,14 +56,15 @@ public:
         n.text = std::move(value);
         return add(std::move(n), here());
     }
-    bool binary(binary_t&) override { return false; }  // JSON text has none
+    bool binary(binary_t&) override { return false; } // JSON text has none
     bool start_object(std::size_t) override { return open(Node::Type::object); }
     bool start_array(std::size_t) override { return open(Node::Type::array); }
     bool key(string_t& name) override {
         Node& object = *stack_.back();
         if (object.members.size() >= max_keys)
             return fail("more than " + std::to_string(max_keys) + " keys in one object", here());
-        if (object.find(name)) return fail("the key \"" + name + "\" stands twice", here());
+        if (object.find(name))
+            return fail("the key \"" + name + "\" stands twice", here());
         object.members.emplace_back(std::move(name), Node{});
         object.members.back().second.line = line(here());
         return true;
@@ -74,7 +75,7 @@ public:
         const bool overflow = dynamic_cast<const nlohmann::detail::out_of_range*>(&e) != nullptr;
         std::string what = overflow ? "a number that no double can hold" : "not valid JSON";
         const std::size_t at = position > 0 ? position - 1 : 0;
-        if (position > text_.size() && !overflow)  // it has read beyond the last character
+        if (position > text_.size() && !overflow) // it has read beyond the last character
             what += ": the text ends too early";
         else if (!token.empty())
             what += " at \"" + token.substr(token.size() > 40 ? token.size() - 40 : 0) + "\"";
@@ -82,7 +83,7 @@ public:
     }
 
     Node root;
-    std::optional<std::pair<std::size_t, std::string>> error;  ///< line and sentence
+    std::optional<std::pair<std::size_t, std::string>> error; ///< line and sentence
 
 private:
     std::size_t here() const { return static_cast<std::size_t>(reached_ - text_.data()); }
@@ -118,7 +119,7 @@ private:
             return &parent.items.back();
         }
         Node& member = parent.members.back().second;
-        node.line = member.line;  // a member stands where its key stands
+        node.line = member.line; // a member stands where its key stands
         member = std::move(node);
         return &member;
     }
@@ -146,22 +147,29 @@ private:
     std::vector<Node*> stack_;
 };
 
-}  // namespace
+} // namespace
 
 const Node* Node::find(std::string_view name) const {
     for (const auto& [key, value] : members)
-        if (key == name) return &value;
+        if (key == name)
+            return &value;
     return nullptr;
 }
 
 std::string_view describe(Node::Type type) {
     switch (type) {
-        case Node::Type::null: return "null";
-        case Node::Type::boolean: return "true or false";
-        case Node::Type::number: return "a number";
-        case Node::Type::string: return "a text";
-        case Node::Type::array: return "a list";
-        case Node::Type::object: return "an object";
+    case Node::Type::null:
+        return "null";
+    case Node::Type::boolean:
+        return "true or false";
+    case Node::Type::number:
+        return "a number";
+    case Node::Type::string:
+        return "a text";
+    case Node::Type::array:
+        return "a list";
+    case Node::Type::object:
+        return "an object";
     }
     return "";
 }
@@ -183,4 +191,4 @@ void Document::fail(const Node& at, const std::string& key, const std::string& w
     throw SceneError(source + ":" + std::to_string(at.line) + ": " + (key.empty() ? "" : key + ": ") + what);
 }
 
-}  // namespace clothlab::scene
+} // namespace clothlab::scene

@@ -19,8 +19,8 @@ struct Node {
     double number = 0;
     std::string text;
     std::vector<Node> items;
-    std::vector<std::pair<std::string, Node>> members;  ///< in the order of the file
-    std::size_t line = 0;                               ///< 1-based; where the value, or its key, stands
+    std::vector<std::pair<std::string, Node>> members; ///< in the order of the file
+    std::size_t line = 0;                              ///< 1-based; where the value, or its key, stands
 
     /// The member of a name, or nullptr.
     const Node* find(std::string_view name) const;
@@ -31,7 +31,7 @@ std::string_view describe(Node::Type type);
 
 /// A parsed text. Nesting is limited to 32 levels and objects to 1000 keys, which may not repeat.
 struct Document {
-    std::string source;  ///< name for messages
+    std::string source; ///< name for messages
     Node root;
 
     /// Throws SceneError with the place when the text is not JSON, is empty or breaks a limit.
@@ -41,4 +41,4 @@ struct Document {
     [[noreturn]] void fail(const Node& at, const std::string& key, const std::string& what) const;
 };
 
-}  // namespace clothlab::scene
+} // namespace clothlab::scene

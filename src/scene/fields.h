@@ -1,5 +1,6 @@
-// Every parameter of a scene, described once: the key that files and --set use, unit, allowed values, slider, help text,
-// and how to get and set it. Reading, writing, validation, `list parameters` and the panels all come from this table.
+// Every parameter of a scene, described once: the key that files and --set use, unit, allowed values, slider, help
+// text, and how to get and set it. Reading, writing, validation, `list parameters` and the panels all come from this
+// table.
 #pragma once
 
 #include <optional>
@@ -21,29 +22,29 @@ enum class Scale : std::uint8_t { linear, logarithmic };
 
 struct Allowed {
     double min, max;
-    bool above_min = false;  ///< min itself is not allowed
-    bool zero = true;        ///< 0 is allowed
+    bool above_min = false; ///< min itself is not allowed
+    bool zero = true;       ///< 0 is allowed
 };
 
 struct Shown {
-    std::string_view unit = "";  ///< as people read it
-    double min = 0, max = 1;     ///< of the slider, in that unit; typing may go beyond
+    std::string_view unit = ""; ///< as people read it
+    double min = 0, max = 1;    ///< of the slider, in that unit; typing may go beyond
     Scale scale = Scale::linear;
-    double factor = 1;           ///< from the file's unit to the shown one
+    double factor = 1; ///< from the file's unit to the shown one
 };
 
 struct Field {
-    std::string_view key;  ///< "section.name"
+    std::string_view key; ///< "section.name"
     FieldType type;
     std::string_view label;
-    std::string_view unit;  ///< of the file
+    std::string_view unit; ///< of the file
     Allowed allowed;
     Shown shown;
     Effect effect;
     Required required;
     std::string_view help;
-    std::span<const std::string_view> choices;  ///< for FieldType::choice, in the order of the values 0, 1, ...
-    bool choice_as_integer = false;             ///< the file writes the value, not the name (the course's orientation)
+    std::span<const std::string_view> choices; ///< for FieldType::choice, in the order of the values 0, 1, ...
+    bool choice_as_integer = false;            ///< the file writes the value, not the name (the course's orientation)
 
     // Numbers, integers, booleans and choices are all exact in a double.
     double (*get)(const Scene&) = nullptr;
@@ -73,4 +74,4 @@ inline constexpr double max_points = 4'194'304;
 /// The candidate nearest to a misspelt word, if any is near enough to be meant.
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> candidates);
 
-}  // namespace clothlab::scene
+} // namespace clothlab::scene

@@ -44,4 +44,4 @@ inline constexpr std::uintmax_t max_text_size = 64u << 20;
 /// The whole text of a file. Throws SceneError when it cannot be read, is a folder or is larger than allowed.
 std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max_size = max_text_size);
 
-}  // namespace clothlab::scene
+} // namespace clothlab::scene

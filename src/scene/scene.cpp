@@ -32,7 +32,8 @@ Camera fitting_camera(const sim::Description& description) {
     }
     for (const sim::Collider& collider : description.colliders) {
         const auto* s = std::get_if<sim::Sphere>(&collider);
-        if (!s) continue;
+        if (!s)
+            continue;
         low = {std::min(low.x, s->origin.x - s->radius), std::min(low.y, s->origin.y - s->radius),
                std::min(low.z, s->origin.z - s->radius)};
         high = {std::max(high.x, s->origin.x + s->radius), std::max(high.y, s->origin.y + s->radius),
@@ -45,6 +46,8 @@ Camera fitting_camera(const sim::Description& description) {
     return camera;
 }
 
-Camera camera_of(const Scene& scene) { return scene.camera ? *scene.camera : fitting_camera(scene.simulation); }
+Camera camera_of(const Scene& scene) {
+    return scene.camera ? *scene.camera : fitting_camera(scene.simulation);
+}
 
-}  // namespace clothlab::scene
+} // namespace clothlab::scene

@@ -11,11 +11,11 @@ namespace clothlab::scene {
 
 /// An orbit camera: it looks at a target from a distance, turned by yaw about the vertical and by pitch above it.
 struct Camera {
-    sim::Vec3 target{0.5, 0.6, 0.5};  ///< m
-    double distance = 2.2;            ///< m
-    double yaw = 30;                  ///< degrees; 0 looks from +z, 90 from +x
-    double pitch = 20;                ///< degrees above the horizon
-    double fov = 45;                  ///< degrees, across the shorter side of the picture
+    sim::Vec3 target{0.5, 0.6, 0.5}; ///< m
+    double distance = 2.2;           ///< m
+    double yaw = 30;                 ///< degrees; 0 looks from +z, 90 from +x
+    double pitch = 20;               ///< degrees above the horizon
+    double fov = 45;                 ///< degrees, across the shorter side of the picture
     bool operator==(const Camera&) const = default;
 };
 
@@ -31,7 +31,7 @@ Camera fitting_camera(const sim::Description& description);
 /// How the scene is drawn.
 struct Look {
     std::string shader = "diffuse";
-    bool show_structural = true;  ///< springs, in wireframe and over the surface
+    bool show_structural = true; ///< springs, in wireframe and over the surface
     bool show_shearing = true;
     bool show_bending = true;
     bool springs_over_surface = false;
@@ -46,7 +46,7 @@ struct Scene {
     std::string name;
     std::string description;
     sim::Description simulation;
-    std::optional<Camera> camera;  ///< without one, the scene is shown by fitting_camera
+    std::optional<Camera> camera; ///< without one, the scene is shown by fitting_camera
     Look look;
     bool operator==(const Scene&) const = default;
 };
@@ -54,4 +54,4 @@ struct Scene {
 /// The scene's camera, or the fitting one.
 Camera camera_of(const Scene& scene);
 
-}  // namespace clothlab::scene
+} // namespace clothlab::scene

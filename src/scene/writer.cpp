@@ -13,7 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const sim::Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json to_json(const sim::Vec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
 
 Json to_json(const sim::Collider& collider) {
     if (const auto* s = std::get_if<sim::Sphere>(&collider))
@@ -24,26 +26,36 @@ Json to_json(const sim::Collider& collider) {
 
 Json value_of(const Field& f, const Scene& scene) {
     switch (f.type) {
-        case FieldType::text: return f.get_text(scene);
-        case FieldType::vector: return to_json(f.get_vector(scene));
-        case FieldType::boolean: return f.get(scene) != 0;
-        case FieldType::integer: return static_cast<std::int64_t>(f.get(scene));
-        case FieldType::number: return f.get(scene);
-        case FieldType::choice: break;
+    case FieldType::text:
+        return f.get_text(scene);
+    case FieldType::vector:
+        return to_json(f.get_vector(scene));
+    case FieldType::boolean:
+        return f.get(scene) != 0;
+    case FieldType::integer:
+        return static_cast<std::int64_t>(f.get(scene));
+    case FieldType::number:
+        return f.get(scene);
+    case FieldType::choice:
+        break;
     }
     const auto index = static_cast<std::size_t>(f.get(scene));
-    if (f.choice_as_integer) return index;
+    if (f.choice_as_integer)
+        return index;
     return f.choices[index];
 }
 
 bool nested(const Json& json) {
     for (const Json& item : json)
-        if (item.is_object()) return true;
+        if (item.is_object())
+            return true;
     return false;
 }
 
 /// On one line; bytes that are not UTF-8, as file names may have them, become replacement characters.
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string dump(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 /// Indented as people write scenes: lists of numbers and pins stay on one line.
 void write(std::ostream& out, const Json& json, int indent) {
@@ -57,32 +69,41 @@ void write(std::ostream& out, const Json& json, int indent) {
     bool first = true;
     for (auto it = json.begin(); it != json.end(); ++it, first = false) {
         out << (first ? "\n" : ",\n") << pad;
-        if (object) out << dump(it.key()) << ": ";
+        if (object)
+            out << dump(it.key()) << ": ";
         write(out, *it, indent + 2);
     }
     out << "\n" << std::string(static_cast<std::size_t>(indent), ' ') << (object ? "}" : "]");
 }
 
-std::string reason() { return std::strerror(errno); }
+std::string reason() {
+    return std::strerror(errno);
+}
 
-}  // namespace
+} // namespace
 
 std::string write_scene(const Scene& scene) {
     Json json;
     json["clothlab"] = format_version;
-    if (!scene.name.empty()) json["name"] = scene.name;
-    if (!scene.description.empty()) json["description"] = scene.description;
+    if (!scene.name.empty())
+        json["name"] = scene.name;
+    if (!scene.description.empty())
+        json["description"] = scene.description;
     for (const Field& f : fields()) {
         const std::string section(f.section());
-        if (section == "camera" && !scene.camera) continue;
+        if (section == "camera" && !scene.camera)
+            continue;
         json[section][std::string(f.name())] = value_of(f, scene);
     }
     Json& pinned = json["cloth"]["pinned"] = Json::array();
-    for (const auto& [column, row] : scene.simulation.cloth.pinned) pinned.push_back(Json::array({column, row}));
+    for (const auto& [column, row] : scene.simulation.cloth.pinned)
+        pinned.push_back(Json::array({column, row}));
     Json& accelerations = json["simulation"]["accelerations"] = Json::array();
-    for (const sim::Vec3& a : scene.simulation.stepping.accelerations) accelerations.push_back(to_json(a));
+    for (const sim::Vec3& a : scene.simulation.stepping.accelerations)
+        accelerations.push_back(to_json(a));
     Json& colliders = json["colliders"] = Json::array();
-    for (const sim::Collider& c : scene.simulation.colliders) colliders.push_back(to_json(c));
+    for (const sim::Collider& c : scene.simulation.colliders)
+        colliders.push_back(to_json(c));
     std::ostringstream out;
     write(out, json, 0);
     out << "\n";
@@ -92,15 +113,18 @@ std::string write_scene(const Scene& scene) {
 std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max_size) {
     std::error_code error;
     const std::string name = file.string();
-    if (std::filesystem::is_directory(file, error)) throw SceneError(name + ": this is a folder, not a file");
+    if (std::filesystem::is_directory(file, error))
+        throw SceneError(name + ": this is a folder, not a file");
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw SceneError(name + ": cannot be read: " + reason());
-    std::string text;  // read in pieces: pipes and devices do not say how long they are
+    if (!in)
+        throw SceneError(name + ": cannot be read: " + reason());
+    std::string text; // read in pieces: pipes and devices do not say how long they are
     for (std::string piece(1u << 16, '\0'); in && text.size() <= max_size;) {
         in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
         text.append(piece, 0, static_cast<std::size_t>(in.gcount()));
     }
-    if (in.bad()) throw SceneError(name + ": cannot be read: " + reason());
+    if (in.bad())
+        throw SceneError(name + ": cannot be read: " + reason());
     if (text.size() > max_size)
         throw SceneError(name + ": too large; at most " + std::to_string(max_size >> 20) + " MiB are read");
     return text;
@@ -108,7 +132,8 @@ std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max
 
 Scene load_scene(const std::filesystem::path& file) {
     Scene scene = read_scene(read_text_file(file), file.string());
-    if (scene.name.empty()) scene.name = file.stem().string();
+    if (scene.name.empty())
+        scene.name = file.stem().string();
     return scene;
 }
 
@@ -125,11 +150,13 @@ void save_scene(const Scene& scene, const std::filesystem::path& file) {
         std::ofstream out(partial, std::ios::binary | std::ios::trunc);
         out << text;
         out.flush();
-        if (!out) fail(reason());
+        if (!out)
+            fail(reason());
     }
     std::error_code error;
     std::filesystem::rename(partial, file, error);
-    if (error) fail(error.message());
+    if (error)
+        fail(error.message());
 }
 
-}  // namespace clothlab::scene
+} // namespace clothlab::scene

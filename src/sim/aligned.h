@@ -35,4 +35,4 @@ struct Vec3Array {
     bool operator==(const Vec3Array&) const = default;
 };
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -22,4 +22,4 @@ bool can_change_live(const Description& from, const Description& to) {
     return start(from) == start(to);
 }
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

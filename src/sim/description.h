@@ -21,34 +21,34 @@ enum class Orientation : std::uint8_t { horizontal = 0, vertical = 1 };
 using GridPoint = std::array<int, 2>;
 
 struct Cloth {
-    double width = 1;   ///< m
-    double height = 1;  ///< m
+    double width = 1;  ///< m
+    double height = 1; ///< m
     int num_width_points = 50;
     int num_height_points = 50;
-    double thickness = 0.0095;  ///< m; self-collision keeps points twice this apart
+    double thickness = 0.0095; ///< m; self-collision keeps points twice this apart
     Orientation orientation = Orientation::horizontal;
-    double ks = 5000;      ///< N/m
-    double density = 150;  ///< kg/m²; may be negative, not zero
-    double damping = 0.2;  ///< percent of the Verlet displacement lost in each substep
+    double ks = 5000;     ///< N/m
+    double density = 150; ///< kg/m²; may be negative, not zero
+    double damping = 0.2; ///< percent of the Verlet displacement lost in each substep
     bool enable_structural = true;
     bool enable_shearing = true;
     bool enable_bending = true;
-    Vec3 offset;                    ///< m, added to every start position
-    std::vector<GridPoint> pinned;  ///< points that no stage moves
+    Vec3 offset;                   ///< m, added to every start position
+    std::vector<GridPoint> pinned; ///< points that no stage moves
     bool operator==(const Cloth&) const = default;
 };
 
 struct Sphere {
-    Vec3 origin;          ///< m
-    double radius = 0.2;  ///< m
-    double friction = 0;  ///< 0 slides freely, 1 sticks
+    Vec3 origin;         ///< m
+    double radius = 0.2; ///< m
+    double friction = 0; ///< 0 slides freely, 1 sticks
     bool operator==(const Sphere&) const = default;
 };
 
 struct Plane {
-    Vec3 point;             ///< m
-    Vec3 normal{0, 1, 0};   ///< of any length but zero
-    double friction = 0;    ///< 0 slides freely, 1 sticks
+    Vec3 point;           ///< m
+    Vec3 normal{0, 1, 0}; ///< of any length but zero
+    double friction = 0;  ///< 0 slides freely, 1 sticks
     bool operator==(const Plane&) const = default;
 };
 
@@ -60,13 +60,13 @@ enum class WindClock : std::uint8_t { step, time };
 
 struct Wind {
     WindKind kind = WindKind::none;
-    WindClock clock = WindClock::step;  ///< course wind only
-    Vec3 velocity{3, 0, 0};             ///< m/s, physical wind only, as all that follows
-    double gust = 0.3;                  ///< share of the velocity that comes and goes
-    double gust_period = 2;             ///< s
-    double air_density = 1.2;           ///< kg/m³
-    double drag = 1;                    ///< coefficient
-    double lift = 1;                    ///< coefficient
+    WindClock clock = WindClock::step; ///< course wind only
+    Vec3 velocity{3, 0, 0};            ///< m/s, physical wind only, as all that follows
+    double gust = 0.3;                 ///< share of the velocity that comes and goes
+    double gust_period = 2;            ///< s
+    double air_density = 1.2;          ///< kg/m³
+    double drag = 1;                   ///< coefficient
+    double lift = 1;                   ///< coefficient
     bool operator==(const Wind&) const = default;
 };
 
@@ -100,10 +100,10 @@ struct Stepping {
     IntegratorId integrator = IntegratorId::course_verlet;
     Precision precision = Precision::single_precision;
     double frames_per_second = 90;
-    int substeps = 30;           ///< steps per frame
-    double seed = 0;             ///< of the vertical cloth's random offsets; a whole number below 2^53
-    Vec3 gravity{0, -9.8, 0};    ///< m/s²
-    std::vector<Vec3> accelerations;  ///< m/s², further ones
+    int substeps = 30;               ///< steps per frame
+    double seed = 0;                 ///< of the vertical cloth's random offsets; a whole number below 2^53
+    Vec3 gravity{0, -9.8, 0};        ///< m/s²
+    std::vector<Vec3> accelerations; ///< m/s², further ones
     bool operator==(const Stepping&) const = default;
 };
 
@@ -125,4 +125,4 @@ double point_mass(const Cloth& cloth);
 /// precision) it has to start anew.
 bool can_change_live(const Description& from, const Description& to);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

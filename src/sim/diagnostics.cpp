@@ -38,13 +38,13 @@ std::string divergence_cause(const Model<Real>& model, const char* what) {
     const double y = std::sqrt(8 * k / mass) * model.dt;
     const double limit = 2 * std::sqrt(std::max(0.0, 1 - damping / 2));
     if (y > limit)
-        return sentence("%s: omega dt = %.3g > %.3g, ks is too stiff for %d substeps; %.0f would do for a flat cloth", what, y, limit,
-                        model.substeps, std::ceil(model.substeps * y / limit));
+        return sentence("%s: omega dt = %.3g > %.3g, ks is too stiff for %d substeps; %.0f would do for a flat cloth",
+                        what, y, limit, model.substeps, std::ceil(model.substeps * y / limit));
     return sentence("%s: not by stiffness (omega dt = %.3g < %.3g); look at wind, damping and accelerations", what, y,
                     limit);
 }
 
-}  // namespace
+} // namespace
 
 template <class Real>
 Diagnostics diagnose(const Model<Real>& model, const State<Real>& state) {
@@ -77,7 +77,7 @@ Diagnostics diagnose(const Model<Real>& model, const State<Real>& state) {
     }
     result.max_strain = std::max(0.0, std::sqrt(longest) - 1);
 
-    double size = 0;  // the diagonal of the flat cloth
+    double size = 0; // the diagonal of the flat cloth
     {
         const Vec3Array<Real>& s = model.grid->start;
         const std::size_t last = s.size() - 1;
@@ -101,8 +101,7 @@ Momentum momentum(const Model<Real>& model, const State<Real>& state) {
     Momentum sum;
     for (std::size_t i = 0; i < x.size(); ++i) {
         const double scale = d(model.mass) / model.dt;
-        const Vec3 q{scale * (d(x.x[i]) - d(p.x[i])), scale * (d(x.y[i]) - d(p.y[i])),
-                     scale * (d(x.z[i]) - d(p.z[i]))};
+        const Vec3 q{scale * (d(x.x[i]) - d(p.x[i])), scale * (d(x.y[i]) - d(p.y[i])), scale * (d(x.z[i]) - d(p.z[i]))};
         sum.linear = {sum.linear.x + q.x, sum.linear.y + q.y, sum.linear.z + q.z};
         sum.angular = {sum.angular.x + d(x.y[i]) * q.z - d(x.z[i]) * q.y,
                        sum.angular.y + d(x.z[i]) * q.x - d(x.x[i]) * q.z,
@@ -117,16 +116,17 @@ std::uint64_t hash(const State<Real>& state) {
     std::uint64_t h = SplitMix64::mix(state.steps ^ SplitMix64::mix(std::bit_cast<std::uint64_t>(state.time)));
     for (const Vec3Array<Real>* array : {&state.position, &state.previous})
         for (const AlignedVector<Real>* axis : {&array->x, &array->y, &array->z})
-            for (const Real v : *axis) h = SplitMix64::mix(h ^ std::bit_cast<Bits>(v));
+            for (const Real v : *axis)
+                h = SplitMix64::mix(h ^ std::bit_cast<Bits>(v));
     return h;
 }
 
-#define CLOTHLAB_DEFINE(Real)                                                       \
-    template Diagnostics diagnose<Real>(const Model<Real>&, const State<Real>&);   \
-    template Momentum momentum<Real>(const Model<Real>&, const State<Real>&);      \
+#define CLOTHLAB_DEFINE(Real)                                                                                          \
+    template Diagnostics diagnose<Real>(const Model<Real>&, const State<Real>&);                                       \
+    template Momentum momentum<Real>(const Model<Real>&, const State<Real>&);                                          \
     template std::uint64_t hash<Real>(const State<Real>&);
 CLOTHLAB_DEFINE(float)
 CLOTHLAB_DEFINE(double)
 #undef CLOTHLAB_DEFINE
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

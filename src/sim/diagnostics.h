@@ -11,23 +11,23 @@
 namespace clothlab::sim {
 
 struct Energy {
-    double kinetic = 0, spring = 0, gravity = 0;  ///< J; gravity is zero at the origin
+    double kinetic = 0, spring = 0, gravity = 0; ///< J; gravity is zero at the origin
     double total() const { return kinetic + spring + gravity; }
 };
 
 struct Momentum {
-    Vec3 linear;   ///< kg m/s
-    Vec3 angular;  ///< kg m²/s about the origin
+    Vec3 linear;  ///< kg m/s
+    Vec3 angular; ///< kg m²/s about the origin
 };
 
 enum class Status : std::uint8_t { ok, diverged };
 
 struct Diagnostics {
     Energy energy;
-    double max_strain = 0;  ///< largest (length - rest) / rest of any spring; 0 when all are compressed
-    double rms_speed = 0;   ///< m/s
+    double max_strain = 0; ///< largest (length - rest) / rest of any spring; 0 when all are compressed
+    double rms_speed = 0;  ///< m/s
     Status status = Status::ok;
-    std::string cause;  ///< of a divergence: a sentence
+    std::string cause; ///< of a divergence: a sentence
 };
 
 /// Energies, strain and speed of a state; velocities are (position - previous) / dt, those of the last half step.
@@ -42,12 +42,12 @@ Momentum momentum(const Model<Real>& model, const State<Real>& state);
 template <class Real>
 std::uint64_t hash(const State<Real>& state);
 
-#define CLOTHLAB_DECLARE(Real)                                                              \
-    extern template Diagnostics diagnose<Real>(const Model<Real>&, const State<Real>&);    \
-    extern template Momentum momentum<Real>(const Model<Real>&, const State<Real>&);       \
+#define CLOTHLAB_DECLARE(Real)                                                                                         \
+    extern template Diagnostics diagnose<Real>(const Model<Real>&, const State<Real>&);                                \
+    extern template Momentum momentum<Real>(const Model<Real>&, const State<Real>&);                                   \
     extern template std::uint64_t hash<Real>(const State<Real>&);
 CLOTHLAB_DECLARE(float)
 CLOTHLAB_DECLARE(double)
 #undef CLOTHLAB_DECLARE
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -26,7 +26,8 @@ Grid<Real> make_grid(const Description& description) {
     std::vector<double> wrinkle(points, 0.0);
     if (vertical) {
         SplitMix64 random(static_cast<std::uint64_t>(description.stepping.seed));
-        for (double& z : wrinkle) z = -0.001 + 0.002 * random.unit();
+        for (double& z : wrinkle)
+            z = -0.001 + 0.002 * random.unit();
     }
 
     grid.start.resize(points);
@@ -61,4 +62,4 @@ Grid<Real> make_grid(const Description& description) {
 template Grid<float> make_grid<float>(const Description&);
 template Grid<double> make_grid<double>(const Description&);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

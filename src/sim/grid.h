@@ -33,7 +33,8 @@ void for_each_spring(int columns, int rows, Visit visit) {
         for (int column = 0; column < columns; ++column) {
             for (const SpringStencil& s : spring_stencil) {
                 const int to_column = column + s.columns, to_row = row + s.rows;
-                if (to_column < 0 || to_column >= columns || to_row < 0) continue;
+                if (to_column < 0 || to_column >= columns || to_row < 0)
+                    continue;
                 visit(static_cast<std::uint32_t>(row * columns + column),
                       static_cast<std::uint32_t>(to_row * columns + to_column), s.kind);
             }
@@ -81,4 +82,4 @@ Grid<Real> make_grid(const Description& description);
 extern template Grid<float> make_grid<float>(const Description&);
 extern template Grid<double> make_grid<double>(const Description&);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

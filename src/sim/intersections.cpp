@@ -47,13 +47,15 @@ Box box_of(const Mesh& mesh, const std::array<Index, n>& corners) {
 
 bool overlap(const Box& a, const Box& b) {
     for (std::size_t k = 0; k < 3; ++k)
-        if (a.high[k] < b.low[k] || b.high[k] < a.low[k]) return false;
+        if (a.high[k] < b.low[k] || b.high[k] < a.low[k])
+            return false;
     return true;
 }
 
 /// Six times the signed volume of a tetrahedron.
 double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const Vec3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z}, w{d.x - a.x, d.y - a.y, d.z - a.z};
+    const Vec3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z},
+        w{d.x - a.x, d.y - a.y, d.z - a.z};
     return u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) + u.z * (v.x * w.y - v.y * w.x);
 }
 
@@ -61,12 +63,14 @@ bool passes_through(const Mesh& mesh, const Segment& edge, const Face& face) {
     const Vec3 p = mesh.at(edge[0]), q = mesh.at(edge[1]);
     const Vec3 a = mesh.at(face[0]), b = mesh.at(face[1]), c = mesh.at(face[2]);
     const double above = volume(a, b, c, p), below = volume(a, b, c, q);
-    if (!(above * below < 0)) return false;
+    if (!(above * below < 0))
+        return false;
     const double u = volume(p, q, a, b), v = volume(p, q, b, c), w = volume(p, q, c, a);
     return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
 }
 
-/// A uniform grid of the triangles' boxes, one cell about as large as the longest side of a typical box, hashed to lists.
+/// A uniform grid of the triangles' boxes, one cell about as large as the longest side of a typical box, hashed to
+/// lists.
 class FaceGrid {
 public:
     FaceGrid(const Mesh& mesh, const std::vector<Face>& faces) {
@@ -74,10 +78,12 @@ public:
         for (const Face& f : faces) {
             boxes_.push_back(box_of(mesh, f));
             double size = 0;
-            for (std::size_t k = 0; k < 3; ++k) size = std::max(size, boxes_.back().high[k] - boxes_.back().low[k]);
+            for (std::size_t k = 0; k < 3; ++k)
+                size = std::max(size, boxes_.back().high[k] - boxes_.back().low[k]);
             sizes.push_back(size);
         }
-        if (sizes.empty()) return;
+        if (sizes.empty())
+            return;
         std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
         cell_ = std::max(sizes[sizes.size() / 2], 1e-9);
         slots_.resize(std::bit_ceil(2 * faces.size()));
@@ -90,14 +96,17 @@ public:
     /// Candidates for a box, each once, in order.
     void near(const Box& box, std::vector<Index>& out) const {
         out = large_;
-        if (slots_.empty()) return;  // no face at all
+        if (slots_.empty())
+            return; // no face at all
         const auto add = [&](std::size_t slot) {
             for (const Index i : slots_[slot])
-                if (overlap(box, boxes_[i])) out.push_back(i);
+                if (overlap(box, boxes_[i]))
+                    out.push_back(i);
         };
         if (!cells(box, add)) {
             out.resize(boxes_.size());
-            for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<Index>(i);
+            for (std::size_t i = 0; i < out.size(); ++i)
+                out[i] = static_cast<Index>(i);
         }
         std::sort(out.begin(), out.end());
         out.erase(std::unique(out.begin(), out.end()), out.end());
@@ -111,12 +120,14 @@ private:
         double count = 1;
         for (std::size_t k = 0; k < 3; ++k) {
             const double from = std::floor(box.low[k] / cell_), to = std::floor(box.high[k] / cell_);
-            if (!(std::abs(from) < 1e15) || !(std::abs(to) < 1e15)) return false;
+            if (!(std::abs(from) < 1e15) || !(std::abs(to) < 1e15))
+                return false;
             count *= to - from + 1;
             low[k] = static_cast<std::int64_t>(from);
             high[k] = static_cast<std::int64_t>(to);
         }
-        if (count > 64) return false;
+        if (count > 64)
+            return false;
         for (std::int64_t x = low[0]; x <= high[0]; ++x)
             for (std::int64_t y = low[1]; y <= high[1]; ++y)
                 for (std::int64_t z = low[2]; z <= high[2]; ++z) {
@@ -130,32 +141,36 @@ private:
 
     std::vector<Box> boxes_;
     std::vector<std::vector<Index>> slots_;
-    std::vector<Index> large_;  ///< faces over so many cells that they are looked at always
+    std::vector<Index> large_; ///< faces over so many cells that they are looked at always
     double cell_ = 1;
 };
 
-}  // namespace
+} // namespace
 
 std::size_t count_intersections(int columns, int rows, std::span<const float> positions) {
     const Mesh mesh{positions};
     const auto finite = [&](Index i) {
-        return std::isfinite(positions[3 * i]) && std::isfinite(positions[3 * i + 1]) && std::isfinite(positions[3 * i + 2]);
+        return std::isfinite(positions[3 * i]) && std::isfinite(positions[3 * i + 1]) &&
+               std::isfinite(positions[3 * i + 2]);
     };
     std::vector<Face> faces;
     for_each_triangle(columns, rows, [&](Index a, Index b, Index c) {
-        if (finite(a) && finite(b) && finite(c)) faces.push_back({a, b, c});
+        if (finite(a) && finite(b) && finite(c))
+            faces.push_back({a, b, c});
     });
     const FaceGrid grid(mesh, faces);
 
     std::size_t count = 0;
     std::vector<Index> candidates;
     const auto test = [&](Index p, Index q) {
-        if (!finite(p) || !finite(q)) return;
+        if (!finite(p) || !finite(q))
+            return;
         const Segment edge{p, q};
         grid.near(box_of(mesh, edge), candidates);
         for (const Index i : candidates) {
             const Face& f = faces[i];
-            if (std::find(f.begin(), f.end(), p) != f.end() || std::find(f.begin(), f.end(), q) != f.end()) continue;
+            if (std::find(f.begin(), f.end(), p) != f.end() || std::find(f.begin(), f.end(), q) != f.end())
+                continue;
             count += passes_through(mesh, edge, f) ? 1u : 0u;
         }
     };
@@ -163,11 +178,14 @@ std::size_t count_intersections(int columns, int rows, std::span<const float> po
     for (Index row = 0; row < static_cast<Index>(rows); ++row)
         for (Index column = 0; column < stride; ++column) {
             const Index i = row * stride + column;
-            if (column + 1 < stride) test(i, i + 1);
-            if (row + 1 < static_cast<Index>(rows)) test(i, i + stride);
-            if (column > 0 && row + 1 < static_cast<Index>(rows)) test(i, i + stride - 1);  // the diagonal
+            if (column + 1 < stride)
+                test(i, i + 1);
+            if (row + 1 < static_cast<Index>(rows))
+                test(i, i + stride);
+            if (column > 0 && row + 1 < static_cast<Index>(rows))
+                test(i, i + stride - 1); // the diagonal
         }
     return count;
 }
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -21,10 +21,11 @@ std::variant<SphereModel<Real>, PlaneModel<Real>> collider_model(const Collider&
     // Scaled by its largest component first, so that no normal is too short or too long to be squared.
     Vec3 n = p.normal;
     const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
-    if (!(largest > 0) || !std::isfinite(largest)) throw std::invalid_argument("a plane needs a normal that is not zero");
+    if (!(largest > 0) || !std::isfinite(largest))
+        throw std::invalid_argument("a plane needs a normal that is not zero");
     n = {n.x / largest, n.y / largest, n.z / largest};
     const double length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-    return PlaneModel<Real>{real(p.point.x),    real(p.point.y),    real(p.point.z),    real(n.x / length),
+    return PlaneModel<Real>{real(p.point.x),    real(p.point.y),    real(p.point.z),       real(n.x / length),
                             real(n.y / length), real(n.z / length), real(1.0 - p.friction)};
 }
 
@@ -36,13 +37,15 @@ void select_springs(const Cloth& cloth, Model<Real>& model) {
                        static_cast<Real>(bending_share * cloth.ks)};
     const auto kind_of = [&](std::size_t i) { return static_cast<std::size_t>(all.kind[i]); };
     std::size_t count = 0;
-    for (std::size_t i = 0; i < all.size(); ++i) count += enabled[kind_of(i)] ? 1u : 0u;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        count += enabled[kind_of(i)] ? 1u : 0u;
     model.spring_a.reserve(count);
     model.spring_b.reserve(count);
     model.spring_rest.reserve(count);
     model.spring_k.reserve(count);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!enabled[kind_of(i)]) continue;
+        if (!enabled[kind_of(i)])
+            continue;
         model.spring_a.push_back(all.a[i]);
         model.spring_b.push_back(all.b[i]);
         model.spring_rest.push_back(all.rest[i]);
@@ -50,7 +53,7 @@ void select_springs(const Cloth& cloth, Model<Real>& model) {
     }
 }
 
-}  // namespace
+} // namespace
 
 template <class Real>
 Model<Real> make_model(const Description& description, std::shared_ptr<const Grid<Real>> grid) {
@@ -58,8 +61,10 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
     const Stepping& stepping = description.stepping;
     if (cloth.density == 0 || !std::isfinite(cloth.density))
         throw std::invalid_argument("the density may be any number but zero");
-    if (stepping.substeps < 1) throw std::invalid_argument("a frame needs at least one substep");
-    if (!(stepping.frames_per_second > 0)) throw std::invalid_argument("the frame rate must be above zero");
+    if (stepping.substeps < 1)
+        throw std::invalid_argument("a frame needs at least one substep");
+    if (!(stepping.frames_per_second > 0))
+        throw std::invalid_argument("the frame rate must be above zero");
 
     const auto real = [](double v) { return static_cast<Real>(v); };
     Model<Real> model;
@@ -74,7 +79,8 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
     select_springs(cloth, model);
 
     Vec3 g = stepping.gravity;
-    for (const Vec3& a : stepping.accelerations) g = {g.x + a.x, g.y + a.y, g.z + a.z};
+    for (const Vec3& a : stepping.accelerations)
+        g = {g.x + a.x, g.y + a.y, g.z + a.z};
     model.mass = real(point_mass(cloth));
     model.gx = real(g.x);
     model.gy = real(g.y);
@@ -87,7 +93,8 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
     model.cell_x = real(w);
     model.cell_y = real(h);
     model.cell_z = real(std::max(w, h));
-    for (const Collider& c : description.colliders) model.colliders.push_back(collider_model<Real>(c));
+    for (const Collider& c : description.colliders)
+        model.colliders.push_back(collider_model<Real>(c));
     model.wind = description.wind;
     model.rules = description.rules;
     model.integrator = stepping.integrator;
@@ -97,4 +104,4 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
 template Model<float> make_model<float>(const Description&, std::shared_ptr<const Grid<float>>);
 template Model<double> make_model<double>(const Description&, std::shared_ptr<const Grid<double>>);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

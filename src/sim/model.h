@@ -14,14 +14,14 @@ namespace clothlab::sim {
 template <class Real>
 struct SphereModel {
     Real x, y, z, radius;
-    Real slide;  ///< 1 - friction
+    Real slide; ///< 1 - friction
 };
 
 template <class Real>
 struct PlaneModel {
     Real px, py, pz;
-    Real nx, ny, nz;  ///< unit normal
-    Real slide;       ///< 1 - friction
+    Real nx, ny, nz; ///< unit normal
+    Real slide;      ///< 1 - friction
 };
 
 /// How far above a plane the course puts a point that crossed it, in m.
@@ -32,19 +32,19 @@ inline constexpr double stretch_limit = 1.1;
 template <class Real>
 struct Model {
     std::shared_ptr<const Grid<Real>> grid;
-    std::vector<std::uint8_t> pinned;  ///< 1 for masses that no stage moves
+    std::vector<std::uint8_t> pinned; ///< 1 for masses that no stage moves
 
     // The springs that pull, in spring order: only those of enabled kinds, so that a kind that is off costs nothing.
     std::vector<std::uint32_t> spring_a, spring_b;
     AlignedVector<Real> spring_rest, spring_k;
 
-    Real mass = 0;           ///< kg per point
-    Real gx = 0, gy = 0, gz = 0;  ///< m/s², gravity and all further accelerations
-    Real keep = 1;           ///< share of the Verlet displacement that survives a step
-    double dt = 0;           ///< s
-    int substeps = 1;        ///< per frame
-    Real thickness = 0;      ///< m
-    Real cell_x = 0, cell_y = 0, cell_z = 0;  ///< m, cells of the self-collision
+    Real mass = 0;                           ///< kg per point
+    Real gx = 0, gy = 0, gz = 0;             ///< m/s², gravity and all further accelerations
+    Real keep = 1;                           ///< share of the Verlet displacement that survives a step
+    double dt = 0;                           ///< s
+    int substeps = 1;                        ///< per frame
+    Real thickness = 0;                      ///< m
+    Real cell_x = 0, cell_y = 0, cell_z = 0; ///< m, cells of the self-collision
     std::vector<std::variant<SphereModel<Real>, PlaneModel<Real>>> colliders;
     Wind wind;
     Rules rules;
@@ -59,4 +59,4 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
 extern template Model<float> make_model<float>(const Description&, std::shared_ptr<const Grid<float>>);
 extern template Model<double> make_model<double>(const Description&, std::shared_ptr<const Grid<double>>);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -26,4 +26,4 @@ private:
     std::uint64_t state_;
 };
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -11,7 +11,7 @@
 namespace clothlab::sim {
 namespace {
 
-constexpr std::uint32_t state_magic = 0x534c4343;  // "CCLS"
+constexpr std::uint32_t state_magic = 0x534c4343; // "CCLS"
 constexpr std::uint32_t state_version = 1;
 
 struct StateHeader {
@@ -45,15 +45,14 @@ public:
     explicit SimulationOf(const Description& description)
         : Simulation(description),
           model_(make_model<Real>(description, std::make_shared<const Grid<Real>>(make_grid<Real>(description)))),
-          state_(initial_state(model_)),
-          work_(make_workspace(model_)) {}
+          state_(initial_state(model_)), work_(make_workspace(model_)) {}
 
     void change(const Description& description) override {
         if (!can_change_live(description_, description))
             throw std::invalid_argument("this change of grid, start or precision needs a restart");
         model_ = make_model<Real>(description, model_.grid);
         description_ = description;
-        if (substep_ >= model_.substeps) {  // the frame under way has fewer steps now and is over
+        if (substep_ >= model_.substeps) { // the frame under way has fewer steps now and is over
             substep_ = 0;
             ++frame_;
         }
@@ -112,7 +111,8 @@ public:
         header.time = state_.time;
         std::vector<std::byte> bytes;
         append(bytes, &header, 1);
-        for (const AlignedVector<Real>* axis : axes(state_)) append(bytes, axis->data(), axis->size());
+        for (const AlignedVector<Real>* axis : axes(state_))
+            append(bytes, axis->data(), axis->size());
         const std::uint64_t sum = checksum(bytes);
         append(bytes, &sum, 1);
         return bytes;
@@ -120,21 +120,25 @@ public:
 
     void load_state(std::span<const std::byte> bytes) override {
         StateHeader header;
-        if (bytes.size() < sizeof header + sizeof(std::uint64_t)) throw std::invalid_argument("too short to be a state");
+        if (bytes.size() < sizeof header + sizeof(std::uint64_t))
+            throw std::invalid_argument("too short to be a state");
         std::memcpy(&header, bytes.data(), sizeof header);
-        if (header.magic != state_magic) throw std::invalid_argument("not a clothlab state");
+        if (header.magic != state_magic)
+            throw std::invalid_argument("not a clothlab state");
         if (header.version != state_version)
-            throw std::invalid_argument("a state of version " + std::to_string(header.version) + "; this program reads " +
-                                        std::to_string(state_version));
+            throw std::invalid_argument("a state of version " + std::to_string(header.version) +
+                                        "; this program reads " + std::to_string(state_version));
         if (header.real_size != sizeof(Real))
             throw std::invalid_argument(std::string("a state in ") + (header.real_size == 8 ? "double" : "single") +
                                         " precision; the scene asks for " + (sizeof(Real) == 8 ? "double" : "single"));
         if (header.columns != model_.grid->columns || header.rows != model_.grid->rows)
             throw std::invalid_argument("a state of " + std::to_string(header.columns) + " x " +
                                         std::to_string(header.rows) + " points; the scene has " +
-                                        std::to_string(model_.grid->columns) + " x " + std::to_string(model_.grid->rows));
+                                        std::to_string(model_.grid->columns) + " x " +
+                                        std::to_string(model_.grid->rows));
         const std::size_t size = sizeof header + 6 * points() * sizeof(Real) + sizeof(std::uint64_t);
-        if (bytes.size() != size) throw std::invalid_argument("a truncated or overlong state");
+        if (bytes.size() != size)
+            throw std::invalid_argument("a truncated or overlong state");
         std::uint64_t sum = 0;
         std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
         if (sum != checksum(bytes.first(bytes.size() - sizeof sum)))
@@ -164,7 +168,7 @@ private:
     StepCounts counts_;
 };
 
-}  // namespace
+} // namespace
 
 std::unique_ptr<Simulation> Simulation::create(const Description& description) {
     if (description.stepping.precision == Precision::double_precision)
@@ -174,7 +178,8 @@ std::unique_ptr<Simulation> Simulation::create(const Description& description) {
 
 void Simulation::step_frame() {
     const std::uint64_t now = frame_;
-    while (frame_ == now) step();
+    while (frame_ == now)
+        step();
 }
 
 void Simulation::count_step() {
@@ -184,4 +189,4 @@ void Simulation::count_step() {
     }
 }
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -16,7 +16,8 @@ namespace clothlab::sim {
 
 class Simulation {
 public:
-    /// Starts a run at time 0. Throws std::invalid_argument for a description without meaning (see make_grid, make_model).
+    /// Starts a run at time 0. Throws std::invalid_argument for a description without meaning (see make_grid,
+    /// make_model).
     static std::unique_ptr<Simulation> create(const Description& description);
     virtual ~Simulation() = default;
 
@@ -30,7 +31,7 @@ public:
     /// Steps to the end of the frame under way.
     void step_frame();
 
-    virtual double time() const = 0;          ///< s
+    virtual double time() const = 0; ///< s
     virtual std::uint64_t steps() const = 0;
     std::uint64_t frame() const { return frame_; }
     int substep() const { return substep_; }
@@ -48,10 +49,11 @@ public:
     virtual void time_stages(bool on) = 0;
     virtual const StageSeconds& stage_seconds() const = 0;
 
-    /// The state as bytes: magic, version, precision, grid, time, steps, frame, positions, previous positions, checksum.
+    /// The state as bytes: magic, version, precision, grid, time, steps, frame, positions, previous positions,
+    /// checksum.
     virtual std::vector<std::byte> save_state() const = 0;
-    /// Goes on from such bytes, bit for bit. Throws std::invalid_argument, and changes nothing, when they are damaged or
-    /// of another grid or precision.
+    /// Goes on from such bytes, bit for bit. Throws std::invalid_argument, and changes nothing, when they are damaged
+    /// or of another grid or precision.
     virtual void load_state(std::span<const std::byte> bytes) = 0;
 
 protected:
@@ -63,4 +65,4 @@ protected:
     int substep_ = 0;
 };
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -12,16 +12,16 @@ namespace clothlab::sim {
 
 struct Snapshot {
     int columns = 0, rows = 0;
-    std::vector<float> positions;  ///< x, y, z per point, row-major, in m
-    double time = 0;               ///< s
+    std::vector<float> positions; ///< x, y, z per point, row-major, in m
+    double time = 0;              ///< s
     std::uint64_t steps = 0;
-    std::uint64_t frame = 0;       ///< whole frames since the start
-    int substep = 0;               ///< steps taken of the frame under way
-    int substeps = 1;              ///< per frame
-    double dt = 0;                 ///< s
+    std::uint64_t frame = 0; ///< whole frames since the start
+    int substep = 0;         ///< steps taken of the frame under way
+    int substeps = 1;        ///< per frame
+    double dt = 0;           ///< s
     Diagnostics diagnostics;
-    StepCounts counts;             ///< of the last step
-    StageSeconds seconds_per_step{};  ///< mean wall time of each stage since the last snapshot
+    StepCounts counts;               ///< of the last step
+    StageSeconds seconds_per_step{}; ///< mean wall time of each stage since the last snapshot
 };
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

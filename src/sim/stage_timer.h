@@ -11,10 +11,12 @@ class StageTimer {
 public:
     template <class Real>
     StageTimer(Workspace<Real>& work, Stage stage) : seconds_(work.timed ? &work.seconds[index(stage)] : nullptr) {
-        if (seconds_) start_ = Clock::now();
+        if (seconds_)
+            start_ = Clock::now();
     }
     ~StageTimer() {
-        if (seconds_) *seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
+        if (seconds_)
+            *seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
     }
     StageTimer(const StageTimer&) = delete;
     StageTimer& operator=(const StageTimer&) = delete;
@@ -26,4 +28,4 @@ private:
     Clock::time_point start_;
 };
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

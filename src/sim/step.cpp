@@ -50,12 +50,12 @@ StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& w
     return counts;
 }
 
-#define CLOTHLAB_DEFINE(Real)                                           \
-    template State<Real> initial_state<Real>(const Model<Real>&);      \
-    template Workspace<Real> make_workspace<Real>(const Model<Real>&); \
+#define CLOTHLAB_DEFINE(Real)                                                                                          \
+    template State<Real> initial_state<Real>(const Model<Real>&);                                                      \
+    template Workspace<Real> make_workspace<Real>(const Model<Real>&);                                                 \
     template StepCounts step<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);
 CLOTHLAB_DEFINE(float)
 CLOTHLAB_DEFINE(double)
 #undef CLOTHLAB_DEFINE
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

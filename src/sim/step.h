@@ -8,9 +8,9 @@ namespace clothlab::sim {
 
 /// What a step's contact stages did.
 struct StepCounts {
-    std::size_t self_contacts = 0;      ///< pairs pushed apart, counted from both sides
-    std::size_t contacts = 0;           ///< points put out of a collider
-    std::size_t shortened_springs = 0;  ///< springs that the stretch limit shortened
+    std::size_t self_contacts = 0;     ///< pairs pushed apart, counted from both sides
+    std::size_t contacts = 0;          ///< points put out of a collider
+    std::size_t shortened_springs = 0; ///< springs that the stretch limit shortened
 };
 
 /// A state of masses at rest at the grid's start positions.
@@ -25,12 +25,12 @@ Workspace<Real> make_workspace(const Model<Real>& model);
 template <class Real>
 StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);
 
-#define CLOTHLAB_DECLARE(Real)                                                 \
-    extern template State<Real> initial_state<Real>(const Model<Real>&);      \
-    extern template Workspace<Real> make_workspace<Real>(const Model<Real>&); \
+#define CLOTHLAB_DECLARE(Real)                                                                                         \
+    extern template State<Real> initial_state<Real>(const Model<Real>&);                                               \
+    extern template Workspace<Real> make_workspace<Real>(const Model<Real>&);                                          \
     extern template StepCounts step<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);
 CLOTHLAB_DECLARE(float)
 CLOTHLAB_DECLARE(double)
 #undef CLOTHLAB_DECLARE
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

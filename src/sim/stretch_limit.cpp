@@ -14,9 +14,11 @@ std::size_t limit_stretch(const Model<Real>& model, State<Real>& state) {
         const Real dx = x[b] - x[a], dy = y[b] - y[a], dz = z[b] - z[a];
         const Real length = std::sqrt(dx * dx + dy * dy + dz * dz);
         const Real longest = static_cast<Real>(stretch_limit) * springs.rest[i];
-        if (!(length > longest)) continue;
+        if (!(length > longest))
+            continue;
         const bool a_pinned = model.pinned[a] != 0, b_pinned = model.pinned[b] != 0;
-        if (a_pinned && b_pinned) continue;
+        if (a_pinned && b_pinned)
+            continue;
         const Real s = (length - longest) / length;
         const Real share = a_pinned || b_pinned ? s : Real(0.5) * s;
         if (!a_pinned) {
@@ -37,4 +39,4 @@ std::size_t limit_stretch(const Model<Real>& model, State<Real>& state) {
 template std::size_t limit_stretch<float>(const Model<float>&, State<float>&);
 template std::size_t limit_stretch<double>(const Model<double>&, State<double>&);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -15,4 +15,4 @@ std::size_t limit_stretch(const Model<Real>& model, State<Real>& state);
 extern template std::size_t limit_stretch<float>(const Model<float>&, State<float>&);
 extern template std::size_t limit_stretch<double>(const Model<double>&, State<double>&);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

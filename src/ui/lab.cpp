@@ -13,7 +13,7 @@ namespace {
 struct Panel {
     PanelId id;
     const char* name;
-    const char* window;  ///< title with icon, and the stable id that the layout file knows
+    const char* window; ///< title with icon, and the stable id that the layout file knows
     void (*draw)(Lab&);
 };
 
@@ -30,12 +30,15 @@ void draw_panel(Lab& lab, const Panel& panel) {
     const auto index = static_cast<std::size_t>(panel.id);
     PanelReport& report = lab.report[index];
     report = {panel.name};
-    if (!lab.open[index]) return;
+    if (!lab.open[index])
+        return;
     const bool viewport = panel.id == PanelId::viewport;
-    if (viewport) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    if (viewport)
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     const bool visible = ImGui::Begin(panel.window, &lab.open[index],
                                       viewport ? ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse : 0);
-    if (viewport) ImGui::PopStyleVar();
+    if (viewport)
+        ImGui::PopStyleVar();
     if (visible) {
         const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
         report = {panel.name, true, at.x, at.y, size.x, size.y};
@@ -44,7 +47,7 @@ void draw_panel(Lab& lab, const Panel& panel) {
     ImGui::End();
 }
 
-}  // namespace
+} // namespace
 
 bool modified(const Lab& lab) {
     scene::Scene a = lab.scene, b = lab.loaded;
@@ -67,9 +70,11 @@ void resize_grid(scene::Scene& scene, int columns, int rows) {
         const int c = moved(column, cloth.num_width_points, columns), r = moved(row, cloth.num_height_points, rows);
         pins.push_back({c, r});
         if (pinned(column + 1, row))
-            for (int i = c + 1; i < moved(column + 1, cloth.num_width_points, columns); ++i) pins.push_back({i, r});
+            for (int i = c + 1; i < moved(column + 1, cloth.num_width_points, columns); ++i)
+                pins.push_back({i, r});
         if (pinned(column, row + 1))
-            for (int i = r + 1; i < moved(row + 1, cloth.num_height_points, rows); ++i) pins.push_back({c, i});
+            for (int i = r + 1; i < moved(row + 1, cloth.num_height_points, rows); ++i)
+                pins.push_back({c, i});
     }
     std::sort(pins.begin(), pins.end());
     pins.erase(std::unique(pins.begin(), pins.end()), pins.end());
@@ -83,7 +88,8 @@ void draw(Lab& lab) {
     draw_menu(lab);
     draw_status_bar(lab);
     ImGui::DockSpaceOverViewport(dockspace);
-    for (const Panel& panel : panels) draw_panel(lab, panel);
+    for (const Panel& panel : panels)
+        draw_panel(lab, panel);
 }
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

@@ -24,15 +24,25 @@ struct SceneEntry {
 };
 
 // What panels ask the app for.
-struct OpenScene { std::filesystem::path file; };
-struct SaveScene { std::filesystem::path file; };
-struct BrowseForScene { bool save = false; };  ///< a file dialog of the system
+struct OpenScene {
+    std::filesystem::path file;
+};
+struct SaveScene {
+    std::filesystem::path file;
+};
+struct BrowseForScene {
+    bool save = false;
+}; ///< a file dialog of the system
 struct Screenshot {};
-struct Play { bool on; };
+struct Play {
+    bool on;
+};
 struct StepFrame {};
 struct StepSubstep {};
 struct Restart {};
-struct SetSpeed { double speed; };
+struct SetSpeed {
+    double speed;
+};
 struct Undo {};
 struct Redo {};
 struct ResetLayout {};
@@ -48,7 +58,7 @@ struct Message {
 /// What a panel drew in the last frame, for tests and for the headless check.
 struct PanelReport {
     std::string name;
-    bool drawn = false;  ///< not hidden behind another tab, not closed
+    bool drawn = false; ///< not hidden behind another tab, not closed
     float x = 0, y = 0, width = 0, height = 0;
 };
 
@@ -61,21 +71,21 @@ enum class PanelId : std::uint8_t {
 inline constexpr std::size_t panel_count = static_cast<std::size_t>(PanelId::count);
 
 struct Lab {
-    scene::Scene scene;          ///< as it is now: panels write here
-    scene::Scene loaded;         ///< as loaded or last saved: what reset goes back to
-    std::filesystem::path file;  ///< that it came from
+    scene::Scene scene;         ///< as it is now: panels write here
+    scene::Scene loaded;        ///< as loaded or last saved: what reset goes back to
+    std::filesystem::path file; ///< that it came from
     std::vector<SceneEntry> scenes;
     std::vector<std::string> shaders;
 
-    std::shared_ptr<const sim::Snapshot> snapshot;  ///< newest state; none before the first
+    std::shared_ptr<const sim::Snapshot> snapshot; ///< newest state; none before the first
     bool playing = false;
-    double speed = 1;             ///< simulated seconds per second aimed at
-    double real_time_factor = 0;  ///< reached; 0 when unknown
+    double speed = 1;            ///< simulated seconds per second aimed at
+    double real_time_factor = 0; ///< reached; 0 when unknown
     bool can_undo = false, can_redo = false;
     bool has_file_dialogs = false;
 
-    std::uint64_t viewport_texture = 0;  ///< shown by the viewport panel, bottom row first
-    int viewport_width = 0, viewport_height = 0;  ///< px that the viewport panel wants
+    std::uint64_t viewport_texture = 0;          ///< shown by the viewport panel, bottom row first
+    int viewport_width = 0, viewport_height = 0; ///< px that the viewport panel wants
     std::array<std::array<float, 3>, sim::spring_kinds> spring_colours{};
 
     /// A parameter that restarts the run takes effect when its slider is let go: until then the value waits here.
@@ -85,7 +95,7 @@ struct Lab {
     };
     std::optional<Pending> pending;
 
-    std::deque<Message> messages;  ///< newest last; the viewport shows them until they are dismissed
+    std::deque<Message> messages; ///< newest last; the viewport shows them until they are dismissed
     std::vector<Request> requests;
     std::array<bool, panel_count> open{};
     std::array<PanelReport, panel_count> report{};
@@ -103,4 +113,4 @@ void resize_grid(scene::Scene& scene, int columns, int rows);
 /// Draws the menu, every open panel and the status bar, and handles the keys.
 void draw(Lab& lab);
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

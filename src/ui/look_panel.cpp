@@ -23,14 +23,15 @@ void spring_switch(Lab& lab, sim::SpringKind kind, const char* label, bool& on) 
     ImGui::Dummy({2 * h, h});
 }
 
-}  // namespace
+} // namespace
 
 void draw_look(Lab& lab) {
     scene::Look& look = lab.scene.look;
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##shader", ("Shader: " + look.shader).c_str())) {
         for (const std::string& name : lab.shaders)
-            if (ImGui::Selectable(name.c_str(), name == look.shader)) look.shader = name;
+            if (ImGui::Selectable(name.c_str(), name == look.shader))
+                look.shader = name;
         ImGui::EndCombo();
     }
     tooltip("How the cloth is drawn. Key W changes between wireframe and diffuse.");
@@ -59,11 +60,13 @@ void draw_look(Lab& lab) {
         field_row(lab, "camera.fov");
         end_fields();
     }
-    if (ImGui::Button(ICON_FA_EXPAND "  Fit view")) lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
+    if (ImGui::Button(ICON_FA_EXPAND "  Fit view"))
+        lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
     tooltip("Show the whole scene (F)");
     ImGui::SameLine();
-    if (ImGui::Button(ICON_FA_VIDEO "  Scene's view")) lab.scene.camera = scene::camera_of(lab.loaded);
+    if (ImGui::Button(ICON_FA_VIDEO "  Scene's view"))
+        lab.scene.camera = scene::camera_of(lab.loaded);
     tooltip("Back to the camera that the scene was loaded with");
 }
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

@@ -27,10 +27,13 @@ void draw_path_window(Lab& lab, bool open, bool save) {
         ImGui::OpenPopup(path_window);
     }
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal(path_window, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-    ImGui::TextUnformatted(typed.save ? "Save the scene as:" : "Open a scene file (the course's format, or clothlab's):");
+    if (!ImGui::BeginPopupModal(path_window, nullptr, ImGuiWindowFlags_AlwaysAutoResize))
+        return;
+    ImGui::TextUnformatted(typed.save ? "Save the scene as:"
+                                      : "Open a scene file (the course's format, or clothlab's):");
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 32);
-    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    if (ImGui::IsWindowAppearing())
+        ImGui::SetKeyboardFocusHere();
     const bool entered = ImGui::InputText("##path", &typed.text, ImGuiInputTextFlags_EnterReturnsTrue);
     const bool done = ImGui::Button(typed.save ? "Save" : "Open") || entered;
     ImGui::SameLine();
@@ -41,7 +44,8 @@ void draw_path_window(Lab& lab, bool open, bool save) {
         }
         ImGui::SameLine();
     }
-    if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
+    if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape))
+        ImGui::CloseCurrentPopup();
     if (done && !typed.text.empty()) {
         if (typed.save)
             lab.ask(SaveScene{typed.text});
@@ -53,9 +57,11 @@ void draw_path_window(Lab& lab, bool open, bool save) {
 }
 
 void draw_help_window(bool open) {
-    if (open) ImGui::OpenPopup(help_window);
+    if (open)
+        ImGui::OpenPopup(help_window);
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal(help_window, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+    if (!ImGui::BeginPopupModal(help_window, nullptr, ImGuiWindowFlags_AlwaysAutoResize))
+        return;
     if (ImGui::BeginTable("keys", 2)) {
         for (const Shortcut& s : shortcuts()) {
             ImGui::TableNextRow();
@@ -66,7 +72,8 @@ void draw_help_window(bool open) {
         }
         ImGui::EndTable();
     }
-    if (ImGui::Button("Close") || ImGui::IsKeyPressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
+    if (ImGui::Button("Close") || ImGui::IsKeyPressed(ImGuiKey_Escape))
+        ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 
@@ -78,7 +85,8 @@ struct Windows {
 void save(Lab& lab, Windows& windows) {
     // The scenes that clothlab comes with are not written over by a key.
     bool shipped = false;
-    for (const SceneEntry& entry : lab.scenes) shipped = shipped || entry.file == lab.file;
+    for (const SceneEntry& entry : lab.scenes)
+        shipped = shipped || entry.file == lab.file;
     if (lab.file.empty() || shipped)
         windows.save = true;
     else
@@ -86,20 +94,26 @@ void save(Lab& lab, Windows& windows) {
 }
 
 void file_menu(Lab& lab, Windows& windows) {
-    if (ImGui::MenuItem(ICON_FA_FOLDER_OPEN "  Open ...", "Ctrl+O")) windows.open = true;
+    if (ImGui::MenuItem(ICON_FA_FOLDER_OPEN "  Open ...", "Ctrl+O"))
+        windows.open = true;
     if (ImGui::BeginMenu(ICON_FA_SHAPES "  Open scene")) {
         for (const SceneEntry& entry : lab.scenes) {
-            if (ImGui::MenuItem(entry.name.c_str(), nullptr, entry.file == lab.file)) lab.ask(OpenScene{entry.file});
+            if (ImGui::MenuItem(entry.name.c_str(), nullptr, entry.file == lab.file))
+                lab.ask(OpenScene{entry.file});
             tooltip(entry.description);
         }
         ImGui::EndMenu();
     }
-    if (ImGui::MenuItem(ICON_FA_FLOPPY_DISK "  Save", "Ctrl+S")) save(lab, windows);
-    if (ImGui::MenuItem("      Save as ...", "Ctrl+Shift+S")) windows.save = true;
+    if (ImGui::MenuItem(ICON_FA_FLOPPY_DISK "  Save", "Ctrl+S"))
+        save(lab, windows);
+    if (ImGui::MenuItem("      Save as ...", "Ctrl+Shift+S"))
+        windows.save = true;
     ImGui::Separator();
-    if (ImGui::MenuItem(ICON_FA_CAMERA "  Screenshot", "F12")) lab.ask(Screenshot{});
+    if (ImGui::MenuItem(ICON_FA_CAMERA "  Screenshot", "F12"))
+        lab.ask(Screenshot{});
     ImGui::Separator();
-    if (ImGui::MenuItem("      Quit", "Ctrl+Q")) lab.ask(Quit{});
+    if (ImGui::MenuItem("      Quit", "Ctrl+Q"))
+        lab.ask(Quit{});
 }
 
 void view_menu(Lab& lab) {
@@ -108,7 +122,8 @@ void view_menu(Lab& lab) {
 #include "ui/panels.def"
 #undef CLOTHLAB_PANEL
     ImGui::Separator();
-    if (ImGui::MenuItem("      Default layout")) lab.ask(ResetLayout{});
+    if (ImGui::MenuItem("      Default layout"))
+        lab.ask(ResetLayout{});
 }
 
 bool key(ImGuiKeyChord chord, ImGuiInputFlags flags = 0) {
@@ -116,13 +131,17 @@ bool key(ImGuiKeyChord chord, ImGuiInputFlags flags = 0) {
 }
 
 void window_keys(Lab& lab, Windows& windows) {
-    if (key(ImGuiMod_Ctrl | ImGuiKey_O)) windows.open = true;
-    if (key(ImGuiMod_Ctrl | ImGuiKey_S)) save(lab, windows);
-    if (key(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S)) windows.save = true;
-    if (key(ImGuiKey_F1)) windows.help = true;
+    if (key(ImGuiMod_Ctrl | ImGuiKey_O))
+        windows.open = true;
+    if (key(ImGuiMod_Ctrl | ImGuiKey_S))
+        save(lab, windows);
+    if (key(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S))
+        windows.save = true;
+    if (key(ImGuiKey_F1))
+        windows.help = true;
 }
 
-}  // namespace
+} // namespace
 
 const std::vector<Shortcut>& shortcuts() {
     static const std::vector<Shortcut> list{
@@ -146,22 +165,31 @@ const std::vector<Shortcut>& shortcuts() {
 }
 
 void handle_keys(Lab& lab) {
-    if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) return;
-    if (key(ImGuiKey_Space) || key(ImGuiKey_P)) lab.ask(Play{!lab.playing});
-    if (key(ImGuiMod_Shift | ImGuiKey_N, ImGuiInputFlags_Repeat)) lab.ask(StepSubstep{});
-    if (key(ImGuiKey_N, ImGuiInputFlags_Repeat)) lab.ask(StepFrame{});
-    if (key(ImGuiKey_R)) lab.ask(Restart{});
+    if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
+        return;
+    if (key(ImGuiKey_Space) || key(ImGuiKey_P))
+        lab.ask(Play{!lab.playing});
+    if (key(ImGuiMod_Shift | ImGuiKey_N, ImGuiInputFlags_Repeat))
+        lab.ask(StepSubstep{});
+    if (key(ImGuiKey_N, ImGuiInputFlags_Repeat))
+        lab.ask(StepFrame{});
+    if (key(ImGuiKey_R))
+        lab.ask(Restart{});
     if (key(ImGuiKey_W)) {
         std::string& shader = lab.scene.look.shader;
         shader = shader == "wireframe" ? "diffuse" : "wireframe";
     }
-    if (key(ImGuiKey_F)) lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
-    if (key(ImGuiMod_Ctrl | ImGuiKey_Z, ImGuiInputFlags_Repeat)) lab.ask(Undo{});
+    if (key(ImGuiKey_F))
+        lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
+    if (key(ImGuiMod_Ctrl | ImGuiKey_Z, ImGuiInputFlags_Repeat))
+        lab.ask(Undo{});
     if (key(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Z, ImGuiInputFlags_Repeat) ||
         key(ImGuiMod_Ctrl | ImGuiKey_Y, ImGuiInputFlags_Repeat))
         lab.ask(Redo{});
-    if (key(ImGuiKey_F12)) lab.ask(Screenshot{});
-    if (key(ImGuiMod_Ctrl | ImGuiKey_Q)) lab.ask(Quit{});
+    if (key(ImGuiKey_F12))
+        lab.ask(Screenshot{});
+    if (key(ImGuiMod_Ctrl | ImGuiKey_Q))
+        lab.ask(Quit{});
 }
 
 void draw_menu(Lab& lab) {
@@ -173,8 +201,10 @@ void draw_menu(Lab& lab) {
             ImGui::EndMenu();
         }
         if (ImGui::BeginMenu("Edit")) {
-            if (ImGui::MenuItem("Undo", "Ctrl+Z", false, lab.can_undo)) lab.ask(Undo{});
-            if (ImGui::MenuItem("Redo", "Ctrl+Shift+Z", false, lab.can_redo)) lab.ask(Redo{});
+            if (ImGui::MenuItem("Undo", "Ctrl+Z", false, lab.can_undo))
+                lab.ask(Undo{});
+            if (ImGui::MenuItem("Redo", "Ctrl+Shift+Z", false, lab.can_redo))
+                lab.ask(Redo{});
             ImGui::EndMenu();
         }
         if (ImGui::BeginMenu("View")) {
@@ -182,7 +212,8 @@ void draw_menu(Lab& lab) {
             ImGui::EndMenu();
         }
         if (ImGui::BeginMenu("Help")) {
-            if (ImGui::MenuItem("Keys", "F1")) windows.help = true;
+            if (ImGui::MenuItem("Keys", "F1"))
+                windows.help = true;
             ImGui::EndMenu();
         }
         ImGui::EndMainMenuBar();
@@ -191,4 +222,4 @@ void draw_menu(Lab& lab) {
     draw_help_window(windows.help);
 }
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

@@ -21,4 +21,4 @@ struct Shortcut {
 /// All keys, for the help window and the documentation.
 const std::vector<Shortcut>& shortcuts();
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

@@ -11,27 +11,31 @@ namespace clothlab::ui {
 namespace {
 
 void group(Lab& lab, const char* title, std::initializer_list<std::string_view> keys, bool open = true) {
-    if (!ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0)) return;
-    if (!begin_fields((std::string(title) + "##fields").c_str())) return;
-    for (const std::string_view key : keys) field_row(lab, key);
+    if (!ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0))
+        return;
+    if (!begin_fields((std::string(title) + "##fields").c_str()))
+        return;
+    for (const std::string_view key : keys)
+        field_row(lab, key);
     end_fields();
 }
 
 void sphere_rows(sim::Sphere& s, const sim::Sphere& loaded) {
     vector_row("Origin", "The sphere's centre, in m.", s.origin, loaded.origin, -2, 2, "%.3g m");
     number_row("Radius", "In m.", s.radius, loaded.radius, 0.01, 1, "%.3g m");
-    number_row("Friction", "0 slides freely, 1 sticks. In the course's rule cloth creeps at anything below 1.", s.friction,
-               loaded.friction, 0, 1, "%.2f");
+    number_row("Friction", "0 slides freely, 1 sticks. In the course's rule cloth creeps at anything below 1.",
+               s.friction, loaded.friction, 0, 1, "%.2f");
 }
 
 void plane_rows(sim::Plane& p, const sim::Plane& loaded) {
     vector_row("Point", "A point of the plane, in m.", p.point, loaded.point, -2, 2, "%.3g m");
     const sim::Vec3 before = p.normal;
-    vector_row("Normal", "The direction that the plane faces; its length does not matter.", p.normal, loaded.normal, -1, 1,
-               "%.2f");
-    if (p.normal == sim::Vec3{}) p.normal = before;  // no direction at all
-    number_row("Friction", "0 slides freely, 1 sticks. In the course's rule cloth creeps at anything below 1.", p.friction,
-               loaded.friction, 0, 1, "%.2f");
+    vector_row("Normal", "The direction that the plane faces; its length does not matter.", p.normal, loaded.normal, -1,
+               1, "%.2f");
+    if (p.normal == sim::Vec3{})
+        p.normal = before; // no direction at all
+    number_row("Friction", "0 slides freely, 1 sticks. In the course's rule cloth creeps at anything below 1.",
+               p.friction, loaded.friction, 0, 1, "%.2f");
 }
 
 void colliders(Lab& lab) {
@@ -42,7 +46,8 @@ void colliders(Lab& lab) {
         char title[64];
         std::snprintf(title, sizeof title, "%s  %s %zu###collider%zu", sphere ? ICON_FA_CIRCLE : ICON_FA_SQUARE,
                       sphere ? "Sphere" : "Plane", i + 1, i);
-        if (!ImGui::CollapsingHeader(title) || !begin_fields((std::string(title) + "##fields").c_str())) continue;
+        if (!ImGui::CollapsingHeader(title) || !begin_fields((std::string(title) + "##fields").c_str()))
+            continue;
         ImGui::PushID(static_cast<int>(i));
         const bool same_kind = i < loaded.size() && loaded[i].index() == list[i].index();
         const sim::Collider& reference = same_kind ? loaded[i] : list[i];
@@ -56,22 +61,27 @@ void colliders(Lab& lab) {
 }
 
 void wind(Lab& lab) {
-    if (!ImGui::CollapsingHeader("Wind")) return;
-    if (!begin_fields("wind##fields")) return;
+    if (!ImGui::CollapsingHeader("Wind"))
+        return;
+    if (!begin_fields("wind##fields"))
+        return;
     field_row(lab, "wind.kind");
     switch (lab.scene.simulation.wind.kind) {
-        case sim::WindKind::none: break;
-        case sim::WindKind::course: field_row(lab, "wind.clock"); break;
-        case sim::WindKind::physical:
-            for (const char* key : {"wind.velocity", "wind.gust", "wind.gust_period", "wind.air_density", "wind.drag",
-                                    "wind.lift"})
-                field_row(lab, key);
-            break;
+    case sim::WindKind::none:
+        break;
+    case sim::WindKind::course:
+        field_row(lab, "wind.clock");
+        break;
+    case sim::WindKind::physical:
+        for (const char* key :
+             {"wind.velocity", "wind.gust", "wind.gust_period", "wind.air_density", "wind.drag", "wind.lift"})
+            field_row(lab, key);
+        break;
     }
     end_fields();
 }
 
-}  // namespace
+} // namespace
 
 void draw_parameters(Lab& lab) {
     group(lab, "Cloth", {"cloth.ks", "cloth.density", "cloth.damping", "cloth.thickness"});
@@ -87,4 +97,4 @@ void draw_parameters(Lab& lab) {
           false);
 }
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

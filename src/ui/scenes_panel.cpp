@@ -16,8 +16,9 @@ void draw_scenes(Lab& lab) {
     if (modified(lab)) {
         ImGui::SameLine();
         ImGui::TextColored(colour::accent, "changed");
-        tooltip("Some parameters differ from the file: they are marked in colour in the Parameters panel. Save keeps them, "
-                "and Reset brings the file's values back.");
+        tooltip(
+            "Some parameters differ from the file: they are marked in colour in the Parameters panel. Save keeps them, "
+            "and Reset brings the file's values back.");
     }
     if (!lab.scene.description.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, colour::faint);
@@ -33,14 +34,16 @@ void draw_scenes(Lab& lab) {
     ImGui::EndDisabled();
 
     ImGui::SeparatorText("Scenes");
-    if (!ImGui::BeginChild("list")) return ImGui::EndChild();
+    if (!ImGui::BeginChild("list"))
+        return ImGui::EndChild();
     for (const SceneEntry& entry : lab.scenes) {
-        ImGui::PushID(&entry);  // names may repeat
-        if (ImGui::Selectable(entry.name.c_str(), entry.file == lab.file)) lab.ask(OpenScene{entry.file});
+        ImGui::PushID(&entry); // names may repeat
+        if (ImGui::Selectable(entry.name.c_str(), entry.file == lab.file))
+            lab.ask(OpenScene{entry.file});
         tooltip(entry.description);
         ImGui::PopID();
     }
     ImGui::EndChild();
 }
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

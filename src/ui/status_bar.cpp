@@ -1,7 +1,7 @@
 // The line at the bottom: how far the simulation is, how fast, and whether it is well.
 #include <cstdio>
 #include <imgui.h>
-#include <imgui_internal.h>  // BeginViewportSideBar
+#include <imgui_internal.h> // BeginViewportSideBar
 
 #include "ui/icons.h"
 #include "ui/panels.h"
@@ -17,7 +17,8 @@ void cell(const char* label, const std::string& value, const std::string& help, 
     const float value_width = ImGui::CalcTextSize(value.c_str()).x;
     ImGui::PopFont();
     const float width = ImGui::CalcTextSize(label).x + value_width + ImGui::GetStyle().ItemInnerSpacing.x;
-    if (ImGui::GetCursorPosX() + width > ImGui::GetWindowWidth()) return;
+    if (ImGui::GetCursorPosX() + width > ImGui::GetWindowWidth())
+        return;
     ImGui::BeginGroup();
     ImGui::TextColored(colour::faint, "%s", label);
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
@@ -47,7 +48,8 @@ void cells(Lab& lab, const sim::Snapshot& s) {
     if (d.status == sim::Status::diverged) {
         cell(ICON_FA_TRIANGLE_EXCLAMATION, "diverged", d.cause, colour::error);
     } else {
-        cell(lab.playing ? ICON_FA_PLAY : ICON_FA_PAUSE, lab.playing ? "playing" : "paused ", "The state of the simulation");
+        cell(lab.playing ? ICON_FA_PLAY : ICON_FA_PAUSE, lab.playing ? "playing" : "paused ",
+             "The state of the simulation");
     }
     cell("time", print("%.3f s", s.time), "Simulated time since the start");
     if (lab.playing && lab.real_time_factor > 0)
@@ -55,7 +57,8 @@ void cells(Lab& lab, const sim::Snapshot& s) {
              "Simulated seconds per second, over the last half second",
              lab.real_time_factor < 0.95 * lab.speed ? colour::warning : colour::text);
     double step = 0;
-    for (const double seconds : s.seconds_per_step) step += seconds;
+    for (const double seconds : s.seconds_per_step)
+        step += seconds;
     cell("step", print("%4.0f µs", step * 1e6), stage_table(s));
     for (std::size_t i = 0; i < sim::stage_names.size() && step > 0; ++i)
         if (s.seconds_per_step[i] > 0) {
@@ -67,11 +70,12 @@ void cells(Lab& lab, const sim::Snapshot& s) {
              print("springs %.4g J\n", d.energy.spring) + print("gravity %.4g J", d.energy.gravity));
     cell("strain", print("%.1f %%", 100 * d.max_strain), "Largest elongation of any spring",
          d.max_strain > 0.15 ? colour::warning : colour::text);
-    if (lab.playing)  // paused, the window rests on purpose
-        cell("UI", print("%.0f fps", static_cast<double>(ImGui::GetIO().Framerate)), "Pictures of this window per second");
+    if (lab.playing) // paused, the window rests on purpose
+        cell("UI", print("%.0f fps", static_cast<double>(ImGui::GetIO().Framerate)),
+             "Pictures of this window per second");
 }
 
-}  // namespace
+} // namespace
 
 void draw_status_bar(Lab& lab) {
     const float height = ImGui::GetFrameHeight() + 4;
@@ -91,4 +95,4 @@ void draw_status_bar(Lab& lab) {
     ImGui::End();
 }
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

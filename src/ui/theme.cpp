@@ -12,21 +12,26 @@ constexpr float base_size = 16;
 void load(const std::filesystem::path& file, const std::filesystem::path& icons) {
     // ImGui asserts on a missing file; a sentence is kinder.
     for (const auto& f : {file, icons})
-        if (!std::filesystem::exists(f)) throw std::runtime_error("the font " + f.string() + " is missing");
+        if (!std::filesystem::exists(f))
+            throw std::runtime_error("the font " + f.string() + " is missing");
     ImFontAtlas* atlas = ImGui::GetIO().Fonts;
     atlas->AddFontFromFileTTF(file.string().c_str(), base_size);
     ImFontConfig merge;
     merge.MergeMode = true;
-    merge.GlyphMinAdvanceX = 18;  // icons in a column, whatever their width
+    merge.GlyphMinAdvanceX = 18; // icons in a column, whatever their width
     merge.GlyphOffset = {0, 1};
     atlas->AddFontFromFileTTF(icons.string().c_str(), base_size * 0.85f, &merge);
 }
 
-ImVec4 grey(float level, float alpha = 1) { return {level * 0.92f, level * 0.97f, level * 1.04f, alpha}; }
+ImVec4 grey(float level, float alpha = 1) {
+    return {level * 0.92f, level * 0.97f, level * 1.04f, alpha};
+}
 
-ImVec4 faded(ImVec4 c, float alpha) { return {c.x, c.y, c.z, alpha}; }
+ImVec4 faded(ImVec4 c, float alpha) {
+    return {c.x, c.y, c.z, alpha};
+}
 
-}  // namespace
+} // namespace
 
 void load_fonts(const std::filesystem::path& folder) {
     const auto icons = folder / "Font_Awesome_6_Free-Solid-900.otf";
@@ -59,7 +64,7 @@ void apply_theme(float scale) {
     style.TabBarOverlineSize = 2;
     style.DockingSeparatorSize = 3;
     style.WindowMenuButtonPosition = ImGuiDir_None;
-    style.DockingNodeHasCloseButton = false;  // each tab has its own
+    style.DockingNodeHasCloseButton = false; // each tab has its own
     style.SeparatorTextBorderSize = 1;
     style.SeparatorTextPadding = {0, 4};
 
@@ -87,7 +92,7 @@ void apply_theme(float scale) {
     c[ImGuiCol_HeaderHovered] = grey(0.26f);
     c[ImGuiCol_HeaderActive] = grey(0.30f);
     c[ImGuiCol_CheckMark] = colour::accent;
-    c[ImGuiCol_SliderGrab] = faded(colour::accent, 0.6f);  // the value stays readable under it
+    c[ImGuiCol_SliderGrab] = faded(colour::accent, 0.6f); // the value stays readable under it
     c[ImGuiCol_SliderGrabActive] = faded(colour::accent, 0.85f);
     c[ImGuiCol_Separator] = grey(0.22f);
     c[ImGuiCol_SeparatorHovered] = c[ImGuiCol_SeparatorActive] = faded(colour::accent, 0.7f);
@@ -105,4 +110,4 @@ void apply_theme(float scale) {
     style.FontScaleDpi = scale;
 }
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

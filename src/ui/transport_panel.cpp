@@ -12,9 +12,11 @@ namespace clothlab::ui {
 namespace {
 
 bool wide_button(const char* label, const char* help, bool accent = false) {
-    if (accent) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.68f, 0.32f, 0.21f, 1));
+    if (accent)
+        ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.68f, 0.32f, 0.21f, 1));
     const bool pressed = ImGui::Button(label, {0, ImGui::GetFrameHeight() * 1.25f});
-    if (accent) ImGui::PopStyleColor();
+    if (accent)
+        ImGui::PopStyleColor();
     tooltip(help);
     ImGui::SameLine();
     return pressed;
@@ -33,28 +35,33 @@ void speed_list(Lab& lab) {
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
     if (ImGui::BeginCombo("##speed", name(lab.speed).c_str())) {
         for (const double speed : speeds)
-            if (ImGui::Selectable(name(speed).c_str(), speed == lab.speed)) lab.ask(SetSpeed{speed});
+            if (ImGui::Selectable(name(speed).c_str(), speed == lab.speed))
+                lab.ask(SetSpeed{speed});
         ImGui::EndCombo();
     }
     tooltip("Simulated seconds per second. The status bar shows what is reached.");
 }
 
-}  // namespace
+} // namespace
 
 void draw_transport(Lab& lab) {
-    if (wide_button(ICON_FA_BACKWARD_STEP "  Restart", "Back to the start (R)")) lab.ask(Restart{});
+    if (wide_button(ICON_FA_BACKWARD_STEP "  Restart", "Back to the start (R)"))
+        lab.ask(Restart{});
     const bool playing = lab.playing;
-    if (wide_button(playing ? ICON_FA_PAUSE "  Pause###play" : ICON_FA_PLAY "  Play###play", "Play or pause (Space or P)",
-                    !playing))
+    if (wide_button(playing ? ICON_FA_PAUSE "  Pause###play" : ICON_FA_PLAY "  Play###play",
+                    "Play or pause (Space or P)", !playing))
         lab.ask(Play{!playing});
-    if (wide_button(ICON_FA_FORWARD_STEP "  Frame", "One frame further (N); pauses")) lab.ask(StepFrame{});
-    if (wide_button(ICON_FA_CHEVRON_RIGHT "  Substep", "One substep further (Shift+N); pauses")) lab.ask(StepSubstep{});
+    if (wide_button(ICON_FA_FORWARD_STEP "  Frame", "One frame further (N); pauses"))
+        lab.ask(StepFrame{});
+    if (wide_button(ICON_FA_CHEVRON_RIGHT "  Substep", "One substep further (Shift+N); pauses"))
+        lab.ask(StepSubstep{});
     speed_list(lab);
-    if (!lab.snapshot) return;
+    if (!lab.snapshot)
+        return;
     const sim::Snapshot& s = *lab.snapshot;
     ImGui::SameLine(0, ImGui::GetFontSize());
     mono_text("%.3f s  frame %llu + %d/%d", s.time, static_cast<unsigned long long>(s.frame), s.substep, s.substeps);
     tooltip("Simulated time, whole frames since the start, and the substeps taken of the next frame");
 }
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

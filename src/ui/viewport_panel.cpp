@@ -32,8 +32,10 @@ void move_camera(Lab& lab, float shorter_side) {
         }
     }
     if (ImGui::IsItemHovered() && io.MouseWheel != 0)
-        camera.distance = std::clamp(camera.distance * std::pow(0.88, static_cast<double>(io.MouseWheel)), 0.02, 1000.0);
-    if (camera != before) lab.scene.camera = camera;
+        camera.distance =
+            std::clamp(camera.distance * std::pow(0.88, static_cast<double>(io.MouseWheel)), 0.02, 1000.0);
+    if (camera != before)
+        lab.scene.camera = camera;
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
 }
@@ -41,15 +43,16 @@ void move_camera(Lab& lab, float shorter_side) {
 /// Names the colours of the springs while these are drawn.
 void draw_legend(const Lab& lab, ImVec2 corner) {
     const scene::Look& look = lab.scene.look;
-    if (look.shader != "wireframe" && !look.springs_over_surface) return;
+    if (look.shader != "wireframe" && !look.springs_over_surface)
+        return;
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float line = ImGui::GetTextLineHeight();
-    const std::pair<const char*, bool> rows[] = {{"structural", look.show_structural},
-                                                 {"shear", look.show_shearing},
-                                                 {"bending", look.show_bending}};
+    const std::pair<const char*, bool> rows[] = {
+        {"structural", look.show_structural}, {"shear", look.show_shearing}, {"bending", look.show_bending}};
     ImVec2 at{corner.x + line, corner.y + line};
     for (std::size_t i = 0; i < std::size(rows); ++i) {
-        if (!rows[i].second) continue;
+        if (!rows[i].second)
+            continue;
         const auto& c = lab.spring_colours[i];
         const ImU32 colour = ImGui::GetColorU32(ImVec4(c[0], c[1], c[2], 1));
         list->AddLine({at.x, at.y + line / 2}, {at.x + 1.6f * line, at.y + line / 2}, colour, line / 7);
@@ -60,7 +63,8 @@ void draw_legend(const Lab& lab, ImVec2 corner) {
 
 /// What went wrong, over the picture until it is dismissed; the newest three.
 void draw_messages(Lab& lab, ImVec2 corner, float width) {
-    while (lab.messages.size() > 3) lab.messages.pop_front();
+    while (lab.messages.size() > 3)
+        lab.messages.pop_front();
     const float pad = ImGui::GetStyle().WindowPadding.x;
     float y = corner.y + pad;
     for (std::size_t i = 0; i < lab.messages.size(); ++i) {
@@ -94,7 +98,7 @@ void draw_messages(Lab& lab, ImVec2 corner, float width) {
     }
 }
 
-}  // namespace
+} // namespace
 
 void draw_viewport(Lab& lab) {
     const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
@@ -105,7 +109,8 @@ void draw_viewport(Lab& lab) {
     if (lab.viewport_texture != 0)
         ImGui::Image(static_cast<ImTextureID>(lab.viewport_texture), at_least_one, {0, 1}, {1, 0});
     ImGui::SetCursorScreenPos(corner);
-    // The button owns the mouse: a drag that starts here moves the camera, also beyond the panel, and nothing else does.
+    // The button owns the mouse: a drag that starts here moves the camera, also beyond the panel, and nothing else
+    // does.
     ImGui::SetNextItemAllowOverlap();
     ImGui::InvisibleButton("camera", at_least_one,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
@@ -116,4 +121,4 @@ void draw_viewport(Lab& lab) {
     draw_messages(lab, corner, size.x);
 }
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

@@ -17,15 +17,18 @@ using scene::FieldType;
 /// "%.3g N/m" and the like; a percent sign in the unit is doubled.
 std::string format_with_unit(const char* number, std::string_view unit) {
     std::string format = number;
-    if (!unit.empty() && unit != "°") format += ' ';
-    for (const char c : unit) format += c == '%' ? "%%" : std::string(1, c);
+    if (!unit.empty() && unit != "°")
+        format += ' ';
+    for (const char c : unit)
+        format += c == '%' ? "%%" : std::string(1, c);
     return format;
 }
 
 std::string help_of(const Field& f) {
     std::string text(f.help);
     text += "\n\n" + std::string(f.key) + ": " + scene::allowed_values(f) + ".";
-    if (f.effect == Effect::restart) text += " A change restarts the simulation.";
+    if (f.effect == Effect::restart)
+        text += " A change restarts the simulation.";
     return text;
 }
 
@@ -49,7 +52,8 @@ bool reset_cell(bool changed) {
 
 /// Three significant digits are all that a slider's pixels can mean.
 double round_for_slider(double v) {
-    if (v == 0 || !std::isfinite(v)) return v;
+    if (v == 0 || !std::isfinite(v))
+        return v;
     const double unit = std::pow(10.0, std::floor(std::log10(std::abs(v))) - 2);
     return std::round(v / unit) * unit;
 }
@@ -76,18 +80,20 @@ void edit_number(Lab& lab, const Field& f) {
     double value = (pending ? lab.pending->value : f.get(lab.scene)) * shown.factor;
     const std::string format = format_with_unit(whole ? "%.0f" : "%.7g", shown.unit);
     // Typing may leave the slider's range; what the scene does not allow is refused by assign().
-    const ImGuiSliderFlags flags =
-        ImGuiSliderFlags_NoRoundToFormat | (shown.scale == scene::Scale::logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-    const bool edited = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &shown.min, &shown.max,
-                                            format.c_str(), flags);
+    const ImGuiSliderFlags flags = ImGuiSliderFlags_NoRoundToFormat |
+                                   (shown.scale == scene::Scale::logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    const bool edited =
+        ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &shown.min, &shown.max, format.c_str(), flags);
     const bool typed = ImGui::GetIO().WantTextInput;
     if (whole)
         value = std::round(value);
     else if (!typed)
         value = round_for_slider(value);
     // Back to the file's unit by dividing: 15 g/cm² is 150 kg/m², not 149.99999999999997.
-    if (edited && waits) lab.pending = Lab::Pending{f.key, value / shown.factor};
-    if (edited && !waits) assign(lab, f, value / shown.factor);
+    if (edited && waits)
+        lab.pending = Lab::Pending{f.key, value / shown.factor};
+    if (edited && !waits)
+        assign(lab, f, value / shown.factor);
     if (waits && lab.pending && lab.pending->key == f.key && ImGui::IsItemDeactivated()) {
         assign(lab, f, lab.pending->value);
         lab.pending.reset();
@@ -102,37 +108,45 @@ bool is_switch(const Field& f) {
 void edit_choice(Lab& lab, const Field& f) {
     if (is_switch(f)) {
         bool on = f.get(lab.scene) == 0;
-        if (ImGui::Checkbox("##value", &on)) f.set(lab.scene, on ? 0 : 1);
+        if (ImGui::Checkbox("##value", &on))
+            f.set(lab.scene, on ? 0 : 1);
         return;
     }
     const auto index = static_cast<std::size_t>(f.get(lab.scene));
-    if (!ImGui::BeginCombo("##value", f.choices[index].data())) return;
+    if (!ImGui::BeginCombo("##value", f.choices[index].data()))
+        return;
     for (std::size_t i = 0; i < f.choices.size(); ++i)
-        if (ImGui::Selectable(f.choices[i].data(), i == index)) f.set(lab.scene, static_cast<double>(i));
+        if (ImGui::Selectable(f.choices[i].data(), i == index))
+            f.set(lab.scene, static_cast<double>(i));
     ImGui::EndCombo();
 }
 
 bool edit_vector(sim::Vec3& v, double min, double max, const char* format) {
     double xyz[] = {v.x, v.y, v.z};
     const float speed = static_cast<float>((max - min) / 400);
-    if (!ImGui::DragScalarN("##value", ImGuiDataType_Double, xyz, 3, speed, nullptr, nullptr, format)) return false;
+    if (!ImGui::DragScalarN("##value", ImGuiDataType_Double, xyz, 3, speed, nullptr, nullptr, format))
+        return false;
     for (const double x : xyz)
-        if (!std::isfinite(x)) return false;
+        if (!std::isfinite(x))
+            return false;
     v = {xyz[0], xyz[1], xyz[2]};
     return true;
 }
 
-}  // namespace
+} // namespace
 
 bool begin_fields(const char* id) {
-    if (!ImGui::BeginTable(id, 3, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoSavedSettings)) return false;
+    if (!ImGui::BeginTable(id, 3, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoSavedSettings))
+        return false;
     ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, 0.46f);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.54f);
     ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight());
     return true;
 }
 
-void end_fields() { ImGui::EndTable(); }
+void end_fields() {
+    ImGui::EndTable();
+}
 
 void field_row(Lab& lab, std::string_view key) {
     const Field* found = scene::find_field(key);
@@ -140,26 +154,33 @@ void field_row(Lab& lab, std::string_view key) {
     const Field& f = *found;
     ImGui::PushID(f.key.data());
     const bool vector = f.type == FieldType::vector;
-    const bool changed = vector ? f.get_vector(lab.scene) != f.get_vector(lab.loaded)
-                                : f.get(lab.scene) != f.get(lab.loaded);
+    const bool changed =
+        vector ? f.get_vector(lab.scene) != f.get_vector(lab.loaded) : f.get(lab.scene) != f.get(lab.loaded);
     // Three numbers leave no room for a unit beside each.
     const std::string unit = vector && !f.unit.empty() ? " (" + std::string(f.unit) + ")" : "";
     label_cell((std::string(f.label) + unit).c_str(), help_of(f), changed);
     switch (f.type) {
-        case FieldType::boolean: {
-            bool on = f.get(lab.scene) != 0;
-            if (ImGui::Checkbox("##value", &on)) f.set(lab.scene, on ? 1 : 0);
-            break;
-        }
-        case FieldType::choice: edit_choice(lab, f); break;
-        case FieldType::vector: {
-            sim::Vec3 v = f.get_vector(lab.scene);
-            if (edit_vector(v, f.shown.min, f.shown.max, "%.5g")) f.set_vector(lab.scene, v);
-            break;
-        }
-        case FieldType::number:
-        case FieldType::integer: edit_number(lab, f); break;
-        case FieldType::text: break;  // has a list of its own where it is edited
+    case FieldType::boolean: {
+        bool on = f.get(lab.scene) != 0;
+        if (ImGui::Checkbox("##value", &on))
+            f.set(lab.scene, on ? 1 : 0);
+        break;
+    }
+    case FieldType::choice:
+        edit_choice(lab, f);
+        break;
+    case FieldType::vector: {
+        sim::Vec3 v = f.get_vector(lab.scene);
+        if (edit_vector(v, f.shown.min, f.shown.max, "%.5g"))
+            f.set_vector(lab.scene, v);
+        break;
+    }
+    case FieldType::number:
+    case FieldType::integer:
+        edit_number(lab, f);
+        break;
+    case FieldType::text:
+        break; // has a list of its own where it is edited
     }
     tooltip(help_of(f));
     if (reset_cell(changed)) {
@@ -175,8 +196,8 @@ bool number_row(const char* label, const char* help, double& value, double loade
                 const char* format) {
     ImGui::PushID(label);
     label_cell(label, help, value != loaded);
-    bool edited = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &min, &max, format,
-                                      ImGuiSliderFlags_AlwaysClamp);
+    bool edited =
+        ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &min, &max, format, ImGuiSliderFlags_AlwaysClamp);
     tooltip(help);
     if (reset_cell(value != loaded)) {
         value = loaded;
@@ -201,8 +222,10 @@ bool vector_row(const char* label, const char* help, sim::Vec3& value, const sim
 }
 
 void tooltip(const std::string& text) {
-    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled)) return;
-    if (!ImGui::BeginTooltip()) return;
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled))
+        return;
+    if (!ImGui::BeginTooltip())
+        return;
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
@@ -227,4 +250,4 @@ void mono_text(const char* format, ...) {
     va_end(arguments);
 }
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

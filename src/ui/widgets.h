@@ -12,8 +12,8 @@ namespace clothlab::ui {
 bool begin_fields(const char* id);
 void end_fields();
 
-/// A row that edits one parameter of lab.scene: slider, switch or list as its type asks for, with unit and tooltip, and a
-/// button that resets it to the loaded scene's value where it differs.
+/// A row that edits one parameter of lab.scene: slider, switch or list as its type asks for, with unit and tooltip, and
+/// a button that resets it to the loaded scene's value where it differs.
 void field_row(Lab& lab, std::string_view key);
 
 /// A row for a number that is not in the table of fields (a collider's). True when it was changed.
@@ -32,4 +32,4 @@ bool icon_button(const char* icon, const char* id, const char* help, bool enable
 /// Text in the fixed-width font, so that changing digits do not dance.
 void mono_text(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
-}  // namespace clothlab::ui
+} // namespace clothlab::ui

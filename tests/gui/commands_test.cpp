@@ -42,9 +42,11 @@ cli::RenderArguments picture_of(const std::string& scene, const std::string& out
     return arguments;
 }
 
-int render(const cli::RenderArguments& arguments) { return cli::gui_commands().render(arguments); }
+int render(const cli::RenderArguments& arguments) {
+    return cli::gui_commands().render(arguments);
+}
 
-}  // namespace
+} // namespace
 
 TEST_CASE("render draws the viewport or the whole lab, of the size asked for") {
     const Folder folder;
@@ -98,17 +100,19 @@ TEST_CASE("A picture that cannot be drawn or written is refused with a sentence"
     CHECK_THROWS_MATCHES(render(arguments), scene::SceneError, MessageMatches(ContainsSubstring("none.json")));
     arguments.camera.clear();
     arguments.output = folder / "no/folder/picture.png";
-    CHECK_THROWS_MATCHES(render(arguments), std::runtime_error, MessageMatches(ContainsSubstring("no/folder/picture.png")));
+    CHECK_THROWS_MATCHES(render(arguments), std::runtime_error,
+                         MessageMatches(ContainsSubstring("no/folder/picture.png")));
 }
 
-TEST_CASE("A film is an MP4 file, also of an odd size; without ffmpeg the command says what is missing") {
+TEST_CASE("A film is an MP4 file, also of an odd size, without ffmpeg the command says what is missing") {
     const Folder folder;
     cli::RenderArguments arguments = picture_of("two-pins", folder / "it's a film.mp4");
     arguments.width = 161;
     arguments.height = 101;
     arguments.frame = 9;
     if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0) {
-        CHECK_THROWS_MATCHES(render(arguments), std::runtime_error, MessageMatches(ContainsSubstring("package ffmpeg")));
+        CHECK_THROWS_MATCHES(render(arguments), std::runtime_error,
+                             MessageMatches(ContainsSubstring("package ffmpeg")));
         return;
     }
     REQUIRE(render(arguments) == 0);
@@ -130,7 +134,7 @@ TEST_CASE("With no display the lab draws itself into a picture with a draped clo
     const render::Image lab = render::read_png(arguments.picture);
     CHECK(lab.width == 1440);
     CHECK(lab.height == 900);
-    int cloth = 0;  // pixels of the cloth's colour inside the viewport
+    int cloth = 0; // pixels of the cloth's colour inside the viewport
     for (int y = 50; y < 780; ++y)
         for (int x = 280; x < 1060; ++x) {
             const std::uint8_t* p = lab.pixel(x, y);
@@ -139,4 +143,4 @@ TEST_CASE("With no display the lab draws itself into a picture with a draped clo
     CHECK(cloth > 10000);
 }
 
-}  // namespace clothlab::test
+} // namespace clothlab::test

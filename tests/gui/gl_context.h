@@ -11,4 +11,4 @@ class GlContext {
     app::Window window_{app::Window::Kind::offscreen, 16, 16, "test"};
 };
 
-}  // namespace clothlab::test
+} // namespace clothlab::test

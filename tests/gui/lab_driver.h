@@ -52,7 +52,8 @@ public:
             (*static_cast<std::function<void(ImGuiTestContext*)>*>(context->Test->UserData))(context);
         };
         ImGuiTestEngine_QueueTest(engine_, test);
-        while (!ImGuiTestEngine_IsTestQueueEmpty(engine_)) frame();
+        while (!ImGuiTestEngine_IsTestQueueEmpty(engine_))
+            frame();
         const bool done = test->Output.Status == ImGuiTestStatus_Success;
         ImGuiTestEngine_UnregisterTest(engine_, test);
         settle();
@@ -67,7 +68,8 @@ public:
     void settle() {
         frame();
         app_->simulation().finish();
-        for (int i = 0; i < 3; ++i) frame();
+        for (int i = 0; i < 3; ++i)
+            frame();
     }
 
     app::LabApp& app() { return *app_; }
@@ -78,4 +80,4 @@ private:
     ImGuiTestEngine* engine_ = nullptr;
 };
 
-}  // namespace clothlab::test
+} // namespace clothlab::test

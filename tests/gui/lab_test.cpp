@@ -1,8 +1,8 @@
 // What a lecturer does in the window, done by the test engine.
 #include <imgui.h>
 
-#include <catch2/catch_test_macros.hpp>
 #include <array>
+#include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <fstream>
 
@@ -18,7 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The key presses and clicks that follow go to nothing in particular.
-void leave_widgets(ImGuiTestContext* user) { user->MouseMoveToPos({700, 300}); }
+void leave_widgets(ImGuiTestContext* user) {
+    user->MouseMoveToPos({700, 300});
+}
 
 fs::path temporary(const char* name) {
     const fs::path folder = fs::temp_directory_path() / ("clothlab-gui-test-" + std::to_string(::getpid()));
@@ -26,9 +28,11 @@ fs::path temporary(const char* name) {
     return folder / name;
 }
 
-const scene::Field& field(const char* key) { return *scene::find_field(key); }
+const scene::Field& field(const char* key) {
+    return *scene::find_field(key);
+}
 
-}  // namespace
+} // namespace
 
 TEST_CASE("Every panel is there when the lab opens, and the status bar") {
     LabDriver driver;
@@ -48,10 +52,12 @@ TEST_CASE("Space and P play and pause") {
     for (const ImGuiKey key : {ImGuiKey_Space, ImGuiKey_P}) {
         REQUIRE(driver.act([&](ImGuiTestContext* user) { user->KeyPress(key); }));
         // Playing never finishes: frames until the thread says so.
-        for (int i = 0; i < 1000 && !driver.lab().playing; ++i) driver.frame();
+        for (int i = 0; i < 1000 && !driver.lab().playing; ++i)
+            driver.frame();
         CHECK(driver.lab().playing);
         const std::uint64_t steps = driver.lab().snapshot->steps;
-        for (int i = 0; i < 10000 && driver.lab().snapshot->steps == steps; ++i) driver.frame();
+        for (int i = 0; i < 10000 && driver.lab().snapshot->steps == steps; ++i)
+            driver.frame();
         CHECK(driver.lab().snapshot->steps > steps);
         driver.app().simulation().play(false);
         driver.settle();
@@ -80,21 +86,24 @@ TEST_CASE("The transport's buttons do the same") {
         user->ItemClick(ICON_FA_CHEVRON_RIGHT "  Substep");
     }));
     CHECK(driver.lab().snapshot->steps == 31);
-    REQUIRE(driver.act([](ImGuiTestContext* user) { user->ItemClick("###Transport/" ICON_FA_BACKWARD_STEP "  Restart"); }));
+    REQUIRE(
+        driver.act([](ImGuiTestContext* user) { user->ItemClick("###Transport/" ICON_FA_BACKWARD_STEP "  Restart"); }));
     CHECK(driver.lab().snapshot->steps == 0);
 }
 
 TEST_CASE("Space plays also after a click on a button, and does not click it again") {
     LabDriver driver;
-    REQUIRE(driver.act([](ImGuiTestContext* user) { user->ItemClick("###Transport/" ICON_FA_FORWARD_STEP "  Frame"); }));
+    REQUIRE(
+        driver.act([](ImGuiTestContext* user) { user->ItemClick("###Transport/" ICON_FA_FORWARD_STEP "  Frame"); }));
     REQUIRE(driver.act([](ImGuiTestContext* user) {
         user->KeyPress(ImGuiKey_Space);
         user->Yield(2);
         user->KeyPress(ImGuiKey_Space);
     }));
-    for (int i = 0; i < 1000 && driver.lab().playing; ++i) driver.frame();
+    for (int i = 0; i < 1000 && driver.lab().playing; ++i)
+        driver.frame();
     CHECK_FALSE(driver.lab().playing);
-    CHECK(driver.lab().snapshot->steps > 30);  // played, and not to the end of one frame as the button would
+    CHECK(driver.lab().snapshot->steps > 30); // played, and not to the end of one frame as the button would
 }
 
 TEST_CASE("A value typed into a slider reaches the running simulation, and reset brings the scene's back") {
@@ -104,14 +113,15 @@ TEST_CASE("A value typed into a slider reaches the running simulation, and reset
         user->ItemInputValue("###Parameters/**/cloth.ks/##value", "1234.5");
     }));
     CHECK(driver.lab().scene.simulation.cloth.ks == 1234.5);
-    CHECK(driver.lab().snapshot->steps == 30);  // live: no restart
+    CHECK(driver.lab().snapshot->steps == 30); // live: no restart
     CHECK(ui::modified(driver.lab()));
-    REQUIRE(driver.act([](ImGuiTestContext* user) { user->ItemClick("###Parameters/**/cloth.ks/" ICON_FA_ROTATE_LEFT "##reset"); }));
+    REQUIRE(driver.act(
+        [](ImGuiTestContext* user) { user->ItemClick("###Parameters/**/cloth.ks/" ICON_FA_ROTATE_LEFT "##reset"); }));
     CHECK(driver.lab().scene.simulation.cloth.ks == 5000);
     CHECK_FALSE(ui::modified(driver.lab()));
 }
 
-TEST_CASE("A density is typed in g/cm² and kept in kg/m², negative ones too; zero is refused with a sentence") {
+TEST_CASE("A density is typed in g/cm² and kept in kg/m², negative ones too, zero is refused with a sentence") {
     LabDriver driver;
     const char* density = "###Parameters/**/cloth.density/##value";
     REQUIRE(driver.act([&](ImGuiTestContext* user) { user->ItemInputValue(density, "7"); }));
@@ -161,7 +171,7 @@ TEST_CASE("Undo and redo go through the edits, and the camera is no edit") {
     CHECK(driver.lab().scene.simulation.cloth.ks == 100);
 }
 
-TEST_CASE("Dragging in the viewport turns, pans and zooms the camera; dragging in a panel does not") {
+TEST_CASE("Dragging in the viewport turns, pans and zooms the camera, dragging in a panel does not") {
     LabDriver driver;
     const scene::Camera start = *driver.lab().scene.camera;
     const auto camera = [&] { return *driver.lab().scene.camera; };
@@ -239,7 +249,7 @@ TEST_CASE("A changed scene is saved under a new name and opens again as it was")
     REQUIRE(driver.act([&](ImGuiTestContext* user) {
         user->ItemInputValue("###Parameters/**/cloth.ks/##value", "777");
         leave_widgets(user);
-        user->KeyPress(ImGuiMod_Ctrl | ImGuiKey_S);  // a shipped scene: asks for a name
+        user->KeyPress(ImGuiMod_Ctrl | ImGuiKey_S); // a shipped scene: asks for a name
         user->Yield(3);
         user->SetRef("//$FOCUSED");
         user->ItemInputValue("##path", file.string().c_str());
@@ -275,7 +285,7 @@ TEST_CASE("A blow-up pauses the run and is explained") {
     CHECK(driver.lab().snapshot->diagnostics.status == sim::Status::diverged);
     REQUIRE_FALSE(driver.lab().messages.empty());
     CHECK(driver.lab().messages.front().text.find("ks is too stiff") != std::string::npos);
-    CHECK(driver.app().draw_report().width > 0);  // still drawn
+    CHECK(driver.app().draw_report().width > 0); // still drawn
 }
 
 TEST_CASE("The wireframe draws every enabled spring kind, and the look panel switches each") {
@@ -330,7 +340,7 @@ TEST_CASE("A layout that the user changed is there again when the lab is reopene
     {
         LabDriver driver("two-pins", 1280, 800, true);
         const ui::PanelReport usual = parameters(driver);
-        REQUIRE(driver.act([&](ImGuiTestContext* user) {  // the border between viewport and parameters
+        REQUIRE(driver.act([&](ImGuiTestContext* user) { // the border between viewport and parameters
             user->MouseMoveToPos({usual.x - 2, usual.y + 300});
             user->MouseDragWithDelta({-120, 0});
         }));
@@ -346,4 +356,4 @@ TEST_CASE("A layout that the user changed is there again when the lab is reopene
     ::unsetenv("XDG_CONFIG_HOME");
 }
 
-}  // namespace clothlab::test
+} // namespace clothlab::test

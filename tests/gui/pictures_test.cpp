@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int frame = 60;
-/// Mean difference over 64 x 36 cells, of 1. Drivers and fonts rasterise a little differently; a missing cloth, sphere or
-/// panel is ten times as much.
+/// Mean difference over 64 x 36 cells, of 1. Drivers and fonts rasterise a little differently; a missing cloth, sphere
+/// or panel is ten times as much.
 constexpr double tolerance = 0.004;
 
 fs::path reference(const fs::path& scene) {
@@ -39,13 +39,14 @@ render::Image quarter(const render::Image& image) {
         for (int x = 0; x < small.width; ++x)
             for (int channel = 0; channel < 4; ++channel) {
                 int sum = 0;
-                for (int i = 0; i < 16; ++i) sum += image.pixel(4 * x + i % 4, 4 * y + i / 4)[channel];
+                for (int i = 0; i < 16; ++i)
+                    sum += image.pixel(4 * x + i % 4, 4 * y + i / 4)[channel];
                 small.rgba.push_back(static_cast<std::uint8_t>(sum / 16));
             }
     return small;
 }
 
-}  // namespace
+} // namespace
 
 TEST_CASE("Every shipped scene is drawn with its cloth, its colliders and all panels, and looks as it should") {
     for (const fs::path& file : app::shipped_scenes()) {
@@ -62,7 +63,8 @@ TEST_CASE("Every shipped scene is drawn with its cloth, its colliders and all pa
         CHECK(report.cloth_box.width() > report.width / 8);
         CHECK(report.pins == d.cloth.pinned.size());
         CHECK(report.spheres + report.planes == d.colliders.size());
-        for (const ui::PanelReport& panel : app->lab().report) CHECK(panel.drawn);
+        for (const ui::PanelReport& panel : app->lab().report)
+            CHECK(panel.drawn);
         CHECK(app->lab().status_bar_drawn);
         CHECK(app->lab().messages.empty());
 
@@ -76,7 +78,7 @@ TEST_CASE("The comparison sees a cloth that is missing, a collider that is not d
     const fs::path file = app::scene_path("sphere-medium");
     const auto app = lab_on(file);
     const render::Image expected = render::read_png(reference(file));
-    app->show_frame(0);  // the cloth is somewhere else
+    app->show_frame(0); // the cloth is somewhere else
     CHECK(render::difference(app->picture(), expected) > tolerance);
     app->show_frame(frame);
     CHECK(render::difference(app->picture(), expected) < tolerance);
@@ -99,4 +101,4 @@ TEST_CASE("Draw the pictures anew", "[.][draw-pictures]") {
     }
 }
 
-}  // namespace clothlab::test
+} // namespace clothlab::test

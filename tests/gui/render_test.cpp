@@ -1,6 +1,6 @@
 // The pictures that the renderer draws, judged by claims about their pixels and by what it says that it drew.
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 

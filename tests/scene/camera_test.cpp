@@ -106,7 +106,7 @@ TEST_CASE("A scene is shown by its own camera, and without one by the fitting on
     REQUIRE(scene::camera_of(scene).distance == 7);
 }
 
-TEST_CASE("A camera file has the keys of a scene's camera; what it leaves out has its default") {
+TEST_CASE("A camera file has the keys of a scene's camera, what it leaves out has its default") {
     const scene::Camera camera =
         scene::read_camera(R"({"target": [1, 2, 3], "distance": 4, "yaw": -5, "pitch": 6, "fov": 70})", "camera.json");
     REQUIRE(camera == scene::Camera{{1, 2, 3}, 4, -5, 6, 70});

@@ -106,7 +106,7 @@ TEST_CASE("Choices are set by name, and the orientation by its number as in file
     REQUIRE(with("simulation.integrator", "course-verlet") == scene::Scene{});
 }
 
-TEST_CASE("rules=cs184 sets all rules at once; a name that not every rule has is refused") {
+TEST_CASE("rules=cs184 sets all rules at once, a name that not every rule has is refused") {
     scene::Scene scene = collision_scene();
     scene.simulation.rules = {.limit = sim::LimitRule::off, .self_collision = sim::SelfCollisionRule::none};
     require_refused("rules", "off", {"cs184", "rules.limit=off"}, scene);
@@ -204,7 +204,7 @@ TEST_CASE("Name and description take any text as it is") {
     }
 }
 
-TEST_CASE("The nearest word is one that differs in a letter in three, or has two swapped; else there is none") {
+TEST_CASE("The nearest word is one that differs in a letter in three, or has two swapped, else there is none") {
     const std::vector<std::string_view> words{"width", "height", "ks", "density"};
     REQUIRE(scene::nearest("widht", words) == "width");
     REQUIRE(scene::nearest("hieght", words) == "height");

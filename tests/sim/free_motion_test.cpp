@@ -62,7 +62,7 @@ TEST_CASE("Free fall without damping after n steps is a dt^2 n(n+1)/2") {
     }
 }
 
-TEST_CASE("Damped free fall after n steps is (a dt^2/d) [n - (1-d)(1-(1-d)^n)/d]") {
+TEST_CASE("Damped free fall after n steps is (a dt^2/d) (n - (1-d)(1-(1-d)^n)/d)") {
     const double percent = GENERATE(0.2, 5.0);
     const auto simulation = sim::Simulation::create(falling(percent));
     const double dt = sim::step_length(simulation->description()), d = percent / 100;

@@ -20,7 +20,7 @@ TEST_CASE("SplitMix64 gives its published sequence") {
     }
 }
 
-TEST_CASE("Unit draws are the upper 53 bits: in [0, 1), and spread over it") {
+TEST_CASE("Unit draws are the upper 53 bits: at least 0, below 1, and spread over it") {
     SplitMix64 random(5), bits(5);
     double low = 1, high = 0, sum = 0;
     for (int i = 0; i < 10000; ++i) {

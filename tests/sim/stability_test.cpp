@@ -117,7 +117,7 @@ TEST_CASE(
     REQUIRE(largest_displacement(sheet) > 1e-3); // from 1e-6; a limit of 2 would have let it die out
 }
 
-TEST_CASE("A cloth a hundred times its own size has diverged; one that is large or far away has not") {
+TEST_CASE("A cloth a hundred times its own size has diverged, one that is large or far away has not") {
     Sheet<double> sheet(bare_cloth(5, 5));
     const auto status = [&](double scale, double fallen) {
         for (std::size_t i = 0; i < sheet.points(); ++i) {

@@ -1,7 +1,7 @@
 // Determinism and resuming: equal runs have equal hashes, and a run that was saved and loaded goes on to the last bit.
+#include <bit>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
-#include <bit>
 #include <cstring>
 #include <stdexcept>
 

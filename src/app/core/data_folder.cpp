@@ -10,7 +10,8 @@ namespace {
 
 std::vector<fs::path> data_folders() {
     std::vector<fs::path> folders;
-    if (const char* named = std::getenv("CLOTHLAB_DATA"); named && *named) folders.emplace_back(named);
+    if (const char* named = std::getenv("CLOTHLAB_DATA"); named && *named)
+        folders.emplace_back(named);
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     if (!error) {
@@ -26,18 +27,20 @@ std::vector<fs::path> files_in(const fs::path& folder, const char* extension) {
     std::vector<fs::path> files;
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-        if (entry.path().extension() == extension) files.push_back(entry.path());
+        if (entry.path().extension() == extension)
+            files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }
 
-}  // namespace
+} // namespace
 
 fs::path data_path(const fs::path& name) {
     std::string looked;
     for (const fs::path& folder : data_folders()) {
         std::error_code error;
-        if (fs::exists(folder / name, error)) return (folder / name).lexically_normal();
+        if (fs::exists(folder / name, error))
+            return (folder / name).lexically_normal();
         looked += (looked.empty() ? "" : ", ") + folder.string();
     }
     throw std::runtime_error(name.string() + " is missing; looked in " + looked +
@@ -46,18 +49,23 @@ fs::path data_path(const fs::path& name) {
 
 fs::path scene_path(const std::string& what) {
     std::error_code error;
-    if (fs::exists(what, error)) return what;
+    if (fs::exists(what, error))
+        return what;
     for (const fs::path& file : shipped_scenes())
-        if (file.stem() == what || file.filename() == what) return file;
+        if (file.stem() == what || file.filename() == what)
+            return file;
     return what;
 }
 
-std::vector<fs::path> shipped_scenes() { return files_in(data_path("scenes"), ".json"); }
+std::vector<fs::path> shipped_scenes() {
+    return files_in(data_path("scenes"), ".json");
+}
 
 std::vector<std::string> shipped_shaders() {
     std::vector<std::string> names{"wireframe"};
-    for (const fs::path& file : files_in(data_path("shaders") / "cloth", ".frag")) names.push_back(file.stem().string());
+    for (const fs::path& file : files_in(data_path("shaders") / "cloth", ".frag"))
+        names.push_back(file.stem().string());
     return names;
 }
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

@@ -8,8 +8,9 @@
 namespace clothlab::app {
 
 /// A file or folder that the program comes with. Looked for in the folder named by the environment variable
-/// CLOTHLAB_DATA, beside the program, one folder above it (a build folder in a checkout), in ../share/clothlab (installed)
-/// and in the checkout that it was built from. Throws std::runtime_error that names all of these when it is in none.
+/// CLOTHLAB_DATA, beside the program, one folder above it (a build folder in a checkout), in ../share/clothlab
+/// (installed) and in the checkout that it was built from. Throws std::runtime_error that names all of these when it is
+/// in none.
 std::filesystem::path data_path(const std::filesystem::path& name);
 
 /// The scene that a user means by `what`: a file, or the name of one that the program comes with, with or without
@@ -22,4 +23,4 @@ std::vector<std::filesystem::path> shipped_scenes();
 /// The names of the shaders that the program comes with: "wireframe", and a file of shaders/cloth/ each.
 std::vector<std::string> shipped_shaders();
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

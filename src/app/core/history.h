@@ -20,9 +20,11 @@ public:
 
     /// Call when no edit is under way: if the scene is no longer the last state, that becomes something to undo.
     void settle(const scene::Scene& scene) {
-        if (same(scene, last_)) return;
+        if (same(scene, last_))
+            return;
         undo_.push_back(last_);
-        if (undo_.size() > depth) undo_.erase(undo_.begin());
+        if (undo_.size() > depth)
+            undo_.erase(undo_.begin());
         redo_.clear();
         last_ = scene;
     }
@@ -41,7 +43,8 @@ private:
         return a == b;
     }
     std::optional<scene::Scene> move(std::vector<scene::Scene>& from, std::vector<scene::Scene>& to) {
-        if (from.empty()) return std::nullopt;
+        if (from.empty())
+            return std::nullopt;
         to.push_back(last_);
         last_ = from.back();
         from.pop_back();
@@ -52,4 +55,4 @@ private:
     std::vector<scene::Scene> undo_, redo_;
 };
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

@@ -14,7 +14,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-double seconds(Clock::duration d) { return Seconds(d).count(); }
+double seconds(Clock::duration d) {
+    return Seconds(d).count();
+}
 
 /// A slow frame shows its progress this often; a fast one is not shown more often than this.
 constexpr double publish_interval = 1.0 / 120;
@@ -23,7 +25,7 @@ constexpr double forgiven = 0.1;
 /// Over which the real-time factor is measured.
 constexpr double factor_window = 0.5;
 
-}  // namespace
+} // namespace
 
 /// What only the thread itself touches.
 struct SimulationThread::Worker {
@@ -34,8 +36,8 @@ struct SimulationThread::Worker {
     double speed = 1;
     long long steps_to_take = 0;
     std::uint64_t frames_to_take = 0;
-    bool in_frame = false;  ///< playing has begun a frame that it is to complete
-    bool dirty = true;      ///< something changed since the last publication
+    bool in_frame = false; ///< playing has begun a frame that it is to complete
+    bool dirty = true;     ///< something changed since the last publication
     double real_time_factor = 0;
 
     // Pace: where simulated and wall time were when playing, speed or run last changed.
@@ -66,7 +68,8 @@ struct SimulationThread::Worker {
     }
 
     void change(const sim::Description& description) {
-        if (!simulation || !can_change_live(simulation->description(), description)) return start(description);
+        if (!simulation || !can_change_live(simulation->description(), description))
+            return start(description);
         try {
             simulation->change(description);
             error.clear();
@@ -92,7 +95,7 @@ struct SimulationThread::Worker {
     /// Takes one step if there is anything to do now; otherwise says until when there is not.
     bool work(std::optional<Clock::time_point>& wait_until) {
         if (!simulation) {
-            steps_to_take = 0;  // there is nothing to step
+            steps_to_take = 0; // there is nothing to step
             frames_to_take = 0;
             return false;
         }
@@ -104,10 +107,12 @@ struct SimulationThread::Worker {
         if (frames_to_take > 0) {
             const std::uint64_t frame = simulation->frame();
             take_step();
-            if (simulation->frame() != frame) --frames_to_take;
+            if (simulation->frame() != frame)
+                --frames_to_take;
             return true;
         }
-        if (!playing) return false;
+        if (!playing)
+            return false;
         if (!in_frame) {
             const Clock::time_point now = Clock::now(), when = due();
             if (now < when) {
@@ -133,7 +138,8 @@ struct SimulationThread::Worker {
 
     void measure_factor() {
         const double wall = seconds(Clock::now() - factor_wall);
-        if (wall < factor_window) return;
+        if (wall < factor_window)
+            return;
         real_time_factor = (simulation->time() - factor_time) / wall;
         factor_wall = Clock::now();
         factor_time = simulation->time();
@@ -150,18 +156,18 @@ struct SimulationThread::Worker {
     bool worth_publishing() const { return dirty && (idle() || Clock::now() >= next_publication()); }
 
     std::shared_ptr<const sim::Snapshot> snapshot() {
-        if (!simulation) return nullptr;
+        if (!simulation)
+            return nullptr;
         auto s = std::make_shared<sim::Snapshot>();
         simulation->capture(*s);
         const auto steps = static_cast<double>(simulation->steps() - published_steps);
         for (std::size_t i = 0; i < s->seconds_per_step.size(); ++i)
-            s->seconds_per_step[i] =
-                steps > 0 ? (simulation->stage_seconds()[i] - published_seconds[i]) / steps : 0;
+            s->seconds_per_step[i] = steps > 0 ? (simulation->stage_seconds()[i] - published_seconds[i]) / steps : 0;
         published_seconds = simulation->stage_seconds();
         published_steps = simulation->steps();
         published_at = Clock::now();
         dirty = false;
-        if (s->diagnostics.status == sim::Status::diverged) {  // nothing to see from here on
+        if (s->diagnostics.status == sim::Status::diverged) { // nothing to see from here on
             playing = in_frame = false;
             steps_to_take = 0;
             frames_to_take = 0;
@@ -248,11 +254,14 @@ void SimulationThread::run() {
     for (;;) {
         {
             const std::lock_guard lock(mutex_);
-            if (quit_) return;
+            if (quit_)
+                return;
             commands.swap(commands_);
-            if (!commands.empty()) busy_ = true;
+            if (!commands.empty())
+                busy_ = true;
         }
-        for (const Command& command : commands) command(worker);
+        for (const Command& command : commands)
+            command(worker);
         commands.clear();
 
         std::optional<Clock::time_point> wait_until;
@@ -262,16 +271,19 @@ void SimulationThread::run() {
             const std::lock_guard lock(mutex_);
             published_ = {std::move(snapshot), worker.run, worker.playing, worker.real_time_factor, worker.error};
         }
-        if (worker.has_steps_to_take()) continue;
+        if (worker.has_steps_to_take())
+            continue;
         {
             // Playing is never done; what was asked for is.
             const std::lock_guard lock(mutex_);
             busy_ = false;
             idle_.notify_all();
         }
-        if (worked) continue;
+        if (worked)
+            continue;
         // In slow motion the next frame may be far off; what has been done is shown before.
-        if (wait_until && worker.dirty) wait_until = std::min(*wait_until, worker.next_publication());
+        if (wait_until && worker.dirty)
+            wait_until = std::min(*wait_until, worker.next_publication());
 
         std::unique_lock lock(mutex_);
         const auto called = [this] { return quit_ || !commands_.empty(); };
@@ -282,4 +294,4 @@ void SimulationThread::run() {
     }
 }
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

@@ -1,5 +1,5 @@
-// The simulation in a thread of its own. The window hands over what the user wants and takes the newest snapshot; neither
-// call ever waits for a step.
+// The simulation in a thread of its own. The window hands over what the user wants and takes the newest snapshot;
+// neither call ever waits for a step.
 #pragma once
 
 #include <condition_variable>
@@ -18,11 +18,11 @@ namespace clothlab::app {
 
 /// What the thread has to show.
 struct Published {
-    std::shared_ptr<const sim::Snapshot> snapshot;  ///< none before the first scene has been built
-    std::uint64_t run = 0;                          ///< counts the starts: which start() the snapshot belongs to
+    std::shared_ptr<const sim::Snapshot> snapshot; ///< none before the first scene has been built
+    std::uint64_t run = 0;                         ///< counts the starts: which start() the snapshot belongs to
     bool playing = false;
-    double real_time_factor = 0;  ///< simulated seconds per second, over the last half second of playing; 0 when unknown
-    std::string error;            ///< why the last start or change was refused; empty when it was not
+    double real_time_factor = 0; ///< simulated seconds per second, over the last half second of playing; 0 when unknown
+    std::string error;           ///< why the last start or change was refused; empty when it was not
 };
 
 class SimulationThread {
@@ -47,8 +47,8 @@ public:
     void set_speed(double speed);
 
     Published latest() const;
-    /// Waits until all that was asked for so far has been done (steps taken, scenes built, playing begun): for tests and
-    /// for pictures without a display, not for the window.
+    /// Waits until all that was asked for so far has been done (steps taken, scenes built, playing begun): for tests
+    /// and for pictures without a display, not for the window.
     void finish();
 
 private:
@@ -57,13 +57,13 @@ private:
     void send(Command command);
     void run();
 
-    mutable std::mutex mutex_;  ///< held for moments only, never during a step
+    mutable std::mutex mutex_; ///< held for moments only, never during a step
     std::condition_variable wake_, idle_;
     std::deque<Command> commands_;
     Published published_;
     bool quit_ = false;
-    bool busy_ = false;  ///< with commands taken from the queue, and the steps that they ask for
+    bool busy_ = false; ///< with commands taken from the queue, and the steps that they ask for
     std::thread thread_;
 };
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

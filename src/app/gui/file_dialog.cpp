@@ -20,11 +20,15 @@ FileDialog::FileDialog(Purpose purpose, const std::filesystem::path& start)
 
 FileDialog::~FileDialog() {
     // The dialog's process would be waited for otherwise.
-    if (parts_->open && !parts_->open->ready(0)) parts_->open->kill();
-    if (parts_->save && !parts_->save->ready(0)) parts_->save->kill();
+    if (parts_->open && !parts_->open->ready(0))
+        parts_->open->kill();
+    if (parts_->save && !parts_->save->ready(0))
+        parts_->save->kill();
 }
 
-bool FileDialog::available() { return pfd::settings::available(); }
+bool FileDialog::available() {
+    return pfd::settings::available();
+}
 
 bool FileDialog::ready() const {
     return parts_->open ? parts_->open->ready(0) : parts_->save->ready(0);
@@ -34,12 +38,14 @@ std::optional<std::filesystem::path> FileDialog::result() {
     std::string file;
     if (parts_->open) {
         const std::vector<std::string> files = parts_->open->result();
-        if (!files.empty()) file = files.front();
+        if (!files.empty())
+            file = files.front();
     } else {
         file = parts_->save->result();
     }
-    if (file.empty()) return std::nullopt;
+    if (file.empty())
+        return std::nullopt;
     return file;
 }
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

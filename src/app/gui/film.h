@@ -27,4 +27,4 @@ private:
     std::FILE* pipe_ = nullptr;
 };
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

@@ -4,7 +4,7 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
-#include <imgui_internal.h>  // ClearIniSettings
+#include <imgui_internal.h> // ClearIniSettings
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,8 @@ std::string scaled_layout(const std::string& text, float scale) {
             if (const std::size_t found = text.find(name, done); found != std::string::npos)
                 at = std::min(at, found + std::strlen(name));
         int x = 0, y = 0, length = 0;
-        if (at == std::string::npos || std::sscanf(text.c_str() + at, "%d,%d%n", &x, &y, &length) != 2) break;
+        if (at == std::string::npos || std::sscanf(text.c_str() + at, "%d,%d%n", &x, &y, &length) != 2)
+            break;
         result += text.substr(done, at - done);
         const auto pixels = [scale](int v) { return std::to_string(std::lround(static_cast<float>(v) * scale)); };
         result += pixels(x) + "," + pixels(y);
@@ -40,14 +41,14 @@ std::string scaled_layout(const std::string& text, float scale) {
     return result + text.substr(done);
 }
 
-}  // namespace
+} // namespace
 
 ImGuiLayer::ImGuiLayer(Window& window, fs::path layout, fs::path default_layout, float scale)
     : window_(window), layout_(std::move(layout)), default_layout_(std::move(default_layout)), forced_scale_(scale) {
     IMGUI_CHECKVERSION();
     context_ = ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // saved below, so that a folder that cannot be written does no harm
+    io.IniFilename = nullptr; // saved below, so that a folder that cannot be written does no harm
     io.ConfigFlags |= ImGuiConfigFlags_DockingEnable | ImGuiConfigFlags_NavEnableKeyboard;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     try {
@@ -78,7 +79,8 @@ void ImGuiLayer::begin_frame() {
         scale_ = scale;
         ui::apply_theme(scale);
     }
-    if (default_layout_wanted_) load_default_layout();
+    if (default_layout_wanted_)
+        load_default_layout();
     default_layout_wanted_ = false;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
@@ -94,7 +96,8 @@ void ImGuiLayer::end_frame(unsigned framebuffer) {
     glClearColor(0.08f, 0.09f, 0.10f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    if (ImGui::GetIO().WantSaveIniSettings) save_layout_if_changed();
+    if (ImGui::GetIO().WantSaveIniSettings)
+        save_layout_if_changed();
 }
 
 void ImGuiLayer::load_default_layout() {
@@ -105,7 +108,8 @@ void ImGuiLayer::load_default_layout() {
 
 void ImGuiLayer::save_layout_if_changed() {
     ImGui::GetIO().WantSaveIniSettings = false;
-    if (layout_.empty()) return;
+    if (layout_.empty())
+        return;
     // Whole or not at all: a crash while saving must not cost the user the layout.
     std::error_code error;
     fs::create_directories(layout_.parent_path(), error);
@@ -123,4 +127,4 @@ fs::path user_layout_file() {
     return {};
 }
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

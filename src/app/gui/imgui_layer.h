@@ -11,8 +11,8 @@ namespace clothlab::app {
 
 class ImGuiLayer {
 public:
-    /// `layout` is where the user's layout is kept: loaded when it is there, else the default of `default_layout`; saved
-    /// when it changes. An empty path keeps none. `scale` overrides the display's when above 0.
+    /// `layout` is where the user's layout is kept: loaded when it is there, else the default of `default_layout`;
+    /// saved when it changes. An empty path keeps none. `scale` overrides the display's when above 0.
     ImGuiLayer(Window& window, std::filesystem::path layout, std::filesystem::path default_layout, float scale = 0);
     ~ImGuiLayer();
     ImGuiLayer(const ImGuiLayer&) = delete;
@@ -40,4 +40,4 @@ private:
 /// $XDG_CONFIG_HOME/clothlab/imgui.ini or ~/.config/clothlab/imgui.ini; empty when there is no home.
 std::filesystem::path user_layout_file();
 
-}  // namespace clothlab::app
+} // namespace clothlab::app

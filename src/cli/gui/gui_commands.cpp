@@ -22,10 +22,13 @@ constexpr int draped_frame = 180;
 
 int lab(const LabArguments& given) {
     LabArguments arguments = given;
-    if (arguments.scene.scene.empty()) arguments.scene.scene = first_scene;
+    if (arguments.scene.scene.empty())
+        arguments.scene.scene = first_scene;
     scene::Scene scene = arguments.scene.load();
-    if (arguments.latitude_lines > 0) scene.look.sphere_latitude_lines = arguments.latitude_lines;
-    if (arguments.longitude_lines > 0) scene.look.sphere_longitude_lines = arguments.longitude_lines;
+    if (arguments.latitude_lines > 0)
+        scene.look.sphere_latitude_lines = arguments.latitude_lines;
+    if (arguments.longitude_lines > 0)
+        scene.look.sphere_longitude_lines = arguments.longitude_lines;
     const auto file = app::scene_path(arguments.scene.scene);
     try {
         app::LabApp window({}, scene, file);
@@ -77,15 +80,15 @@ private:
 class SceneCamera final : public Camera {
 public:
     SceneCamera(const RenderArguments& a, scene::Scene scene)
-        : scene_(std::move(scene)),
-          window_(app::Window::Kind::offscreen, a.width, a.height, "clothlab"),
-          renderer_(app::data_path("shaders")),
-          target_(a.width, a.height),
+        : scene_(std::move(scene)), window_(app::Window::Kind::offscreen, a.width, a.height, "clothlab"),
+          renderer_(app::data_path("shaders")), target_(a.width, a.height),
           simulation_(sim::Simulation::create(scene_.simulation)) {}
     render::Image picture(int frame) override {
-        while (simulation_->frame() < static_cast<std::uint64_t>(frame)) simulation_->step_frame();
+        while (simulation_->frame() < static_cast<std::uint64_t>(frame))
+            simulation_->step_frame();
         simulation_->capture(snapshot_);
-        renderer_.draw(app::to_render(scene_, &snapshot_, static_cast<double>(target_.width()) / target_.height()), target_);
+        renderer_.draw(app::to_render(scene_, &snapshot_, static_cast<double>(target_.width()) / target_.height()),
+                       target_);
         return target_.read();
     }
 
@@ -102,7 +105,8 @@ void film(const RenderArguments& a, Camera& camera, double frames_per_second) {
     // A frame for every thirtieth of a second or so, at the scene's own pace.
     const int every = std::max(1, static_cast<int>(std::lround(frames_per_second / 30)));
     app::Film film(a.output, a.width, a.height, frames_per_second / every);
-    for (int frame = 0; frame <= a.frame; frame += every) film.add(camera.picture(frame));
+    for (int frame = 0; frame <= a.frame; frame += every)
+        film.add(camera.picture(frame));
     film.finish();
 }
 
@@ -111,12 +115,15 @@ int render(const RenderArguments& a) {
     if (extension != ".png" && extension != ".mp4")
         throw scene::SceneError("-o " + a.output + ": write FILE.png for a picture or FILE.mp4 for a film");
     scene::Scene scene = a.scene.load();
-    if (!a.camera.empty()) scene.camera = scene::read_camera(scene::read_text_file(a.camera), a.camera);
-    if (!a.shader.empty()) scene.look.shader = a.shader;
+    if (!a.camera.empty())
+        scene.camera = scene::read_camera(scene::read_text_file(a.camera), a.camera);
+    if (!a.shader.empty())
+        scene.look.shader = a.shader;
     const std::vector<std::string> shaders = app::shipped_shaders();
     if (std::find(shaders.begin(), shaders.end(), scene.look.shader) == shaders.end()) {
         std::string names;
-        for (const std::string& name : shaders) names += (names.empty() ? "" : ", ") + name;
+        for (const std::string& name : shaders)
+            names += (names.empty() ? "" : ", ") + name;
         throw scene::SceneError("there is no shader \"" + scene.look.shader + "\"; there are " + names);
     }
     const double frames_per_second = scene.simulation.stepping.frames_per_second;
@@ -133,8 +140,10 @@ int render(const RenderArguments& a) {
     return 0;
 }
 
-}  // namespace
+} // namespace
 
-GuiCommands gui_commands() { return {lab, render}; }
+GuiCommands gui_commands() {
+    return {lab, render};
+}
 
-}  // namespace clothlab::cli
+} // namespace clothlab::cli

@@ -7,4 +7,4 @@ namespace clothlab::cli {
 
 GuiCommands gui_commands();
 
-}  // namespace clothlab::cli
+} // namespace clothlab::cli

@@ -19,7 +19,8 @@ bool collide(const SphereModel<Real>& s, State<Real>& state, std::size_t i) {
     const Vec3Array<Real>& x = state.position;
     const Real dx = x.x[i] - s.x, dy = x.y[i] - s.y, dz = x.z[i] - s.z;
     const Real distance = std::sqrt(dx * dx + dy * dy + dz * dz);
-    if (!(distance <= s.radius) || distance == 0) return false;
+    if (!(distance <= s.radius) || distance == 0)
+        return false;
     const Real scale = s.radius / distance;
     place(state, i, s.slide, s.x + scale * dx, s.y + scale * dy, s.z + scale * dz);
     return true;
@@ -31,14 +32,15 @@ bool collide(const PlaneModel<Real>& s, State<Real>& state, std::size_t i) {
     const Real after = (x.x[i] - s.px) * s.nx + (x.y[i] - s.py) * s.ny + (x.z[i] - s.pz) * s.nz;
     const Real before = (p.x[i] - s.px) * s.nx + (p.y[i] - s.py) * s.ny + (p.z[i] - s.pz) * s.nz;
     const bool from_above = before >= 0;
-    if (from_above ? !(after <= 0) : !(after >= 0)) return false;
+    if (from_above ? !(after <= 0) : !(after >= 0))
+        return false;
     const Real e = static_cast<Real>(from_above ? plane_offset : -plane_offset);
     place(state, i, s.slide, (x.x[i] - after * s.nx) + e * s.nx, (x.y[i] - after * s.ny) + e * s.ny,
           (x.z[i] - after * s.nz) + e * s.nz);
     return true;
 }
 
-}  // namespace
+} // namespace
 
 template <class Real>
 std::size_t resolve_colliders(const Model<Real>& model, State<Real>& state) {
@@ -48,7 +50,8 @@ std::size_t resolve_colliders(const Model<Real>& model, State<Real>& state) {
         std::visit(
             [&](const auto& shape) {
                 for (std::size_t i = 0; i < state.position.size(); ++i)
-                    if (!model.pinned[i]) contacts += collide(shape, state, i) ? 1u : 0u;
+                    if (!model.pinned[i])
+                        contacts += collide(shape, state, i) ? 1u : 0u;
             },
             collider);
     }
@@ -58,4 +61,4 @@ std::size_t resolve_colliders(const Model<Real>& model, State<Real>& state) {
 template std::size_t resolve_colliders<float>(const Model<float>&, State<float>&);
 template std::size_t resolve_colliders<double>(const Model<double>&, State<double>&);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -13,4 +13,4 @@ std::size_t resolve_colliders(const Model<Real>& model, State<Real>& state);
 extern template std::size_t resolve_colliders<float>(const Model<float>&, State<float>&);
 extern template std::size_t resolve_colliders<double>(const Model<double>&, State<double>&);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -36,7 +36,7 @@ void fill_cells(const Model<Real>& model, const Vec3Array<Real>& x, Workspace<Re
     }
 }
 
-}  // namespace
+} // namespace
 
 template <class Real>
 std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
@@ -47,24 +47,28 @@ std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state,
     const Real apart = Real(2) * model.thickness;
     std::size_t pairs = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-        if (model.pinned[i]) continue;
+        if (model.pinned[i])
+            continue;
         Real sum_x = 0, sum_y = 0, sum_z = 0;
         int count = 0;
         for (std::int32_t other = work.cells.first[slot_of(cell, i) & mask]; other >= 0;
              other = work.cells.next[static_cast<std::size_t>(other)]) {
             const auto q = static_cast<std::size_t>(other);
             // A slot may hold several cells; a pair counts only if the cells are the same, and so only once.
-            if (q == i || !(cell.x[q] == cell.x[i] && cell.y[q] == cell.y[i] && cell.z[q] == cell.z[i])) continue;
+            if (q == i || !(cell.x[q] == cell.x[i] && cell.y[q] == cell.y[i] && cell.z[q] == cell.z[i]))
+                continue;
             const Real dx = x.x[i] - x.x[q], dy = x.y[i] - x.y[q], dz = x.z[i] - x.z[q];
             const Real length = std::sqrt(dx * dx + dy * dy + dz * dz);
-            if (!(length < apart) || length == 0) continue;
+            if (!(length < apart) || length == 0)
+                continue;
             const Real push = (apart - length) / length;
             sum_x += push * dx;
             sum_y += push * dy;
             sum_z += push * dz;
             ++count;
         }
-        if (count == 0) continue;
+        if (count == 0)
+            continue;
         const Real share = static_cast<Real>(count) * static_cast<Real>(model.substeps);
         x.x[i] += sum_x / share;
         x.y[i] += sum_y / share;
@@ -77,4 +81,4 @@ std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state,
 template std::size_t resolve_self_collision<float>(const Model<float>&, State<float>&, Workspace<float>&);
 template std::size_t resolve_self_collision<double>(const Model<double>&, State<double>&, Workspace<double>&);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

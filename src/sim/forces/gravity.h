@@ -27,4 +27,4 @@ double gravity_energy(const Model<Real>& model, const Vec3Array<Real>& position)
     return energy * static_cast<double>(model.mass);
 }
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -37,11 +37,11 @@ double spring_energy(const Model<Real>& model, const Vec3Array<Real>& position) 
     return energy;
 }
 
-#define CLOTHLAB_DEFINE(Real)                                                                               \
-    template void add_spring_forces<Real>(const Model<Real>&, const Vec3Array<Real>&, Vec3Array<Real>&); \
+#define CLOTHLAB_DEFINE(Real)                                                                                          \
+    template void add_spring_forces<Real>(const Model<Real>&, const Vec3Array<Real>&, Vec3Array<Real>&);               \
     template double spring_energy<Real>(const Model<Real>&, const Vec3Array<Real>&);
 CLOTHLAB_DEFINE(float)
 CLOTHLAB_DEFINE(double)
 #undef CLOTHLAB_DEFINE
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -15,11 +15,11 @@ void add_spring_forces(const Model<Real>& model, const Vec3Array<Real>& position
 template <class Real>
 double spring_energy(const Model<Real>& model, const Vec3Array<Real>& position);
 
-#define CLOTHLAB_DECLARE(Real)                                                                                     \
-    extern template void add_spring_forces<Real>(const Model<Real>&, const Vec3Array<Real>&, Vec3Array<Real>&); \
+#define CLOTHLAB_DECLARE(Real)                                                                                         \
+    extern template void add_spring_forces<Real>(const Model<Real>&, const Vec3Array<Real>&, Vec3Array<Real>&);        \
     extern template double spring_energy<Real>(const Model<Real>&, const Vec3Array<Real>&);
 CLOTHLAB_DECLARE(float)
 CLOTHLAB_DECLARE(double)
 #undef CLOTHLAB_DECLARE
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

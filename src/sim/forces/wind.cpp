@@ -1,8 +1,9 @@
 // Physical wind: M. Keckeisen, S. Kimmerle, B. Thomaszewski, M. Wacker, "Modelling effects of wind fields in cloth
-// animations", Journal of WSCG 12 (2004): drag along, and lift across, the relative flow at each face. A deviation: their
-// lift has a unit vector for its direction and so is strongest, and without a direction, where the wind stands on the
-// face. Here the part of the normal across the flow is used as it is, with the sine for its length: lift then vanishes
-// there, and with equal coefficients drag and lift together are the pressure on a flat plate, along its normal.
+// animations", Journal of WSCG 12 (2004): drag along, and lift across, the relative flow at each face. A deviation:
+// their lift has a unit vector for its direction and so is strongest, and without a direction, where the wind stands on
+// the face. Here the part of the normal across the flow is used as it is, with the sine for its length: lift then
+// vanishes there, and with equal coefficients drag and lift together are the pressure on a flat plate, along its
+// normal.
 #include "sim/forces/wind.h"
 
 #include <cmath>
@@ -53,13 +54,14 @@ void add_wind_forces(const Model<Real>& model, const State<Real>& state, Vec3Arr
         const Triple<Real> cross{e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
         const Real twice_area = std::sqrt(cross.x * cross.x + cross.y * cross.y + cross.z * cross.z);
         const Real speed = std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
-        if (!(twice_area > 0) || !(speed > 0)) return;  // no normal, or no wind
+        if (!(twice_area > 0) || !(speed > 0))
+            return; // no normal, or no wind
 
         const Real along = cross.x * u.x + cross.y * u.y + cross.z * u.z;
         const Real side = along < 0 ? Real(-1) : Real(1);
         const Triple<Real> n{side * cross.x / twice_area, side * cross.y / twice_area, side * cross.z / twice_area};
         const Real cosine = side * along / (twice_area * speed);
-        const Real flow = Real(0.5) * twice_area * cosine * speed;  // A cos |u|, to be multiplied by |u| below
+        const Real flow = Real(0.5) * twice_area * cosine * speed; // A cos |u|, to be multiplied by |u| below
         // The part of n across the flow; its length is the sine, and n = cosine u/|u| + across.
         const Triple<Real> across{n.x - cosine * u.x / speed, n.y - cosine * u.y / speed, n.z - cosine * u.z / speed};
         const Real d = drag * flow, l = lift * flow * speed;
@@ -72,12 +74,12 @@ void add_wind_forces(const Model<Real>& model, const State<Real>& state, Vec3Arr
     });
 }
 
-#define CLOTHLAB_DEFINE(Real)                                                                 \
-    template Triple<Real> course_wind<Real>(Triple<Real>, Real);                              \
-    template Triple<Real> course_air_resistance<Real>(Triple<Real>, Triple<Real>);            \
+#define CLOTHLAB_DEFINE(Real)                                                                                          \
+    template Triple<Real> course_wind<Real>(Triple<Real>, Real);                                                       \
+    template Triple<Real> course_air_resistance<Real>(Triple<Real>, Triple<Real>);                                     \
     template void add_wind_forces<Real>(const Model<Real>&, const State<Real>&, Vec3Array<Real>&);
 CLOTHLAB_DEFINE(float)
 CLOTHLAB_DEFINE(double)
 #undef CLOTHLAB_DEFINE
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -29,12 +29,12 @@ Vec3 air_velocity(const Wind& wind, double time);
 template <class Real>
 void add_wind_forces(const Model<Real>& model, const State<Real>& state, Vec3Array<Real>& force);
 
-#define CLOTHLAB_DECLARE(Real)                                                                       \
-    extern template Triple<Real> course_wind<Real>(Triple<Real>, Real);                              \
-    extern template Triple<Real> course_air_resistance<Real>(Triple<Real>, Triple<Real>);            \
+#define CLOTHLAB_DECLARE(Real)                                                                                         \
+    extern template Triple<Real> course_wind<Real>(Triple<Real>, Real);                                                \
+    extern template Triple<Real> course_air_resistance<Real>(Triple<Real>, Triple<Real>);                              \
     extern template void add_wind_forces<Real>(const Model<Real>&, const State<Real>&, Vec3Array<Real>&);
 CLOTHLAB_DECLARE(float)
 CLOTHLAB_DECLARE(double)
 #undef CLOTHLAB_DECLARE
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -18,16 +18,17 @@ void move(const Model<Real>& model, State<Real>& state, const Vec3Array<Real>& f
     const Real t = model.wind.clock == WindClock::time ? static_cast<Real>(state.time) : dt;
     Vec3Array<Real>&x = state.position, &p = state.previous;
     for (std::size_t i = 0; i < x.size(); ++i) {
-        if (model.pinned[i]) continue;
+        if (model.pinned[i])
+            continue;
         Triple<Real> next{x.x[i] + keep * (x.x[i] - p.x[i]) + force.x[i] * c,
                           x.y[i] + keep * (x.y[i] - p.y[i]) + force.y[i] * c,
                           x.z[i] + keep * (x.z[i] - p.z[i]) + force.z[i] * c};
         if constexpr (with_wind) {
             const Real m = model.mass;
             const Triple<Real> w = course_wind<Real>({x.x[i], x.y[i], x.z[i]}, t);
-            const Triple<Real> r = course_air_resistance<Real>(
-                {force.x[i] / m, force.y[i] / m, force.z[i] / m},
-                {(x.x[i] - p.x[i]) / dt, (x.y[i] - p.y[i]) / dt, (x.z[i] - p.z[i]) / dt});
+            const Triple<Real> r =
+                course_air_resistance<Real>({force.x[i] / m, force.y[i] / m, force.z[i] / m},
+                                            {(x.x[i] - p.x[i]) / dt, (x.y[i] - p.y[i]) / dt, (x.z[i] - p.z[i]) / dt});
             next.x -= wind_factor * (w.x + r.x);
             next.y -= wind_factor * (w.y + r.y);
             next.z -= wind_factor * (w.z + r.z);
@@ -41,7 +42,7 @@ void move(const Model<Real>& model, State<Real>& state, const Vec3Array<Real>& f
     }
 }
 
-}  // namespace
+} // namespace
 
 template <class Real>
 void course_verlet(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
@@ -56,4 +57,4 @@ void course_verlet(const Model<Real>& model, State<Real>& state, Workspace<Real>
 template void course_verlet<float>(const Model<float>&, State<float>&, Workspace<float>&);
 template void course_verlet<double>(const Model<double>&, State<double>&, Workspace<double>&);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -21,10 +21,11 @@ void evaluate_forces(const Model<Real>& model, const State<Real>& state, Workspa
     const StageTimer timer(work, Stage::forces);
     set_gravity_forces(model, work.force);
     add_spring_forces(model, state.position, work.force);
-    if (model.wind.kind == WindKind::physical) add_wind_forces(model, state, work.force);
+    if (model.wind.kind == WindKind::physical)
+        add_wind_forces(model, state, work.force);
 }
 
 template void evaluate_forces<float>(const Model<float>&, const State<float>&, Workspace<float>&);
 template void evaluate_forces<double>(const Model<double>&, const State<double>&, Workspace<double>&);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim

@@ -11,18 +11,18 @@
 
 namespace clothlab::sim {
 
-#define CLOTHLAB_INTEGRATOR(id, name, title, help)                                  \
-    template <class Real>                                                           \
-    void id(const Model<Real>& model, State<Real>& state, Workspace<Real>& work); \
-    extern template void id<float>(const Model<float>&, State<float>&, Workspace<float>&); \
+#define CLOTHLAB_INTEGRATOR(id, name, title, help)                                                                     \
+    template <class Real>                                                                                              \
+    void id(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);                                      \
+    extern template void id<float>(const Model<float>&, State<float>&, Workspace<float>&);                             \
     extern template void id<double>(const Model<double>&, State<double>&, Workspace<double>&);
 #include "sim/integrators/integrators.def"
 #undef CLOTHLAB_INTEGRATOR
 
 struct IntegratorInfo {
     IntegratorId id;
-    std::string_view name;   ///< as scenes and the command line write it
-    std::string_view title;  ///< as people read it
+    std::string_view name;  ///< as scenes and the command line write it
+    std::string_view title; ///< as people read it
     std::string_view help;
 };
 
@@ -33,8 +33,9 @@ std::span<const IntegratorInfo> integrators();
 template <class Real>
 void integrate(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
     switch (model.integrator) {
-#define CLOTHLAB_INTEGRATOR(id, name, title, help) \
-    case IntegratorId::id: return id(model, state, work);
+#define CLOTHLAB_INTEGRATOR(id, name, title, help)                                                                     \
+    case IntegratorId::id:                                                                                             \
+        return id(model, state, work);
 #include "sim/integrators/integrators.def"
 #undef CLOTHLAB_INTEGRATOR
     }
@@ -47,4 +48,4 @@ void evaluate_forces(const Model<Real>& model, const State<Real>& state, Workspa
 extern template void evaluate_forces<float>(const Model<float>&, const State<float>&, Workspace<float>&);
 extern template void evaluate_forces<double>(const Model<double>&, const State<double>&, Workspace<double>&);
 
-}  // namespace clothlab::sim
+} // namespace clothlab::sim
