@@ -182,6 +182,24 @@ TEST_CASE("The simulation prints nothing, reads no files and ends no program") {
     REQUIRE(forbidden_calls(checkout() / "src") == Names{});
 }
 
+TEST_CASE("Test names are such that ctest can run each by its name") {
+    // ctest hands the name to the test program, which reads a leading dash as an option; CMake's lists split at
+    // semicolons and pair up brackets.
+    static const std::regex name(R"re(TEST_CASE\(\s*"([^"]*)")re");
+    int seen = 0;
+    for (const std::string& file : files_below(checkout() / "tests")) {
+        if (!is_source(file))
+            continue;
+        const std::string text = read_file(checkout() / "tests" / file);
+        for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it, ++seen) {
+            INFO(file << ": " << (*it)[1]);
+            CHECK((*it)[1].str().find_first_of(";[]") == std::string::npos);
+            CHECK((*it)[1].str().rfind("-", 0) == std::string::npos);
+        }
+    }
+    CHECK(seen > 100);
+}
+
 TEST_CASE("No source file is longer than 450 lines") {
     REQUIRE(long_files(checkout() / "src", 450) == Names{});
 }

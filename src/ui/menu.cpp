@@ -35,7 +35,15 @@ void draw_path_window(Lab& lab, bool open, bool save) {
     if (ImGui::IsWindowAppearing())
         ImGui::SetKeyboardFocusHere();
     const bool entered = ImGui::InputText("##path", &typed.text, ImGuiInputTextFlags_EnterReturnsTrue);
-    const bool done = ImGui::Button(typed.save ? "Save" : "Open") || entered;
+    std::error_code error;
+    const bool replaces = typed.save && typed.text != lab.file.string() && std::filesystem::exists(typed.text, error);
+    if (replaces)
+        ImGui::TextColored(colour::warning, ICON_FA_TRIANGLE_EXCLAMATION "  This file exists and would be replaced.");
+    // Enter alone never replaces another file.
+    const bool done = ImGui::Button(!typed.save ? "Open###done"
+                                    : replaces  ? "Replace###done"
+                                                : "Save###done") ||
+                      (entered && !replaces);
     ImGui::SameLine();
     if (lab.has_file_dialogs) {
         if (ImGui::Button("Browse ...")) {

@@ -229,7 +229,7 @@ TEST_CASE("The parameters that are listed are the table's, with defaults that --
     REQUIRE(finished.out == plain); // the course's scene is the defaults
 }
 
-TEST_CASE("--help and --version go to standard output") {
+TEST_CASE("Help and version go to standard output") {
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"--help"}, {"--version"}, {"run", "--help"}, {"list", "--help"}}) {
         const Finished finished = clothlab::test::clothlab(arguments);

@@ -77,7 +77,7 @@ std::vector<Row> read_csv(const std::string& text) {
 
 } // namespace
 
-TEST_CASE("--hash prints the 16 hex digits of the library's hash, for any number of threads") {
+TEST_CASE("run --hash prints the 16 hex digits of the library's hash, for any number of threads") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
     const auto simulation = sim::Simulation::create(scene::load_scene(scene).simulation);
@@ -91,7 +91,7 @@ TEST_CASE("--hash prints the 16 hex digits of the library's hash, for any number
     REQUIRE(run(scene, {"--frames", "6", "--hash"}) != digits.data());
 }
 
-TEST_CASE("--json prints one object with the documented keys and consistent values") {
+TEST_CASE("run --json prints one object with the documented keys and consistent values") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
     const ordered_json json =
@@ -140,7 +140,7 @@ TEST_CASE("--json prints one object with the documented keys and consistent valu
             run(scene, {"--frames", "5", "--hash", "--set", "simulation.precision=double"}));
 }
 
-TEST_CASE("--csv writes every point of every frame, with digits that read back as the same bits") {
+TEST_CASE("run --csv writes every point of every frame, with digits that read back as the same bits") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder), file = (folder / "out.csv").string();
     for (const std::string precision : {"single", "double"}) {
@@ -171,7 +171,7 @@ TEST_CASE("--csv writes every point of every frame, with digits that read back a
     }
 }
 
-TEST_CASE("--every writes frame 0 and every Nth after it") {
+TEST_CASE("run --every writes frame 0 and every Nth after it") {
     const TemporaryFolder folder;
     const auto rows = read_csv(run(small_scene(folder), {"--frames", "10", "--csv", "-", "--every", "4"}));
     REQUIRE(rows.size() == 3 * 42);
@@ -237,7 +237,7 @@ TEST_CASE("The largest cloth's state can be resumed as well") {
     REQUIRE(run(scene, with) == hash);
 }
 
-TEST_CASE("--obj writes the mesh: vertices, texture coordinates and triangles that refer to them") {
+TEST_CASE("run --obj writes the mesh: vertices, texture coordinates and triangles that refer to them") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder), file = (folder / "cloth.obj").string();
     run(scene, {"--frames", "2", "--obj", file});
@@ -275,7 +275,7 @@ TEST_CASE("--obj writes the mesh: vertices, texture coordinates and triangles th
     REQUIRE(faces == 2 * 6 * 5);
 }
 
-TEST_CASE("--seconds is rounded up to whole frames, and 0.1 s at 90 frames/s is 9 of them") {
+TEST_CASE("run --seconds is rounded up to whole frames, and 0.1 s at 90 frames/s is 9 of them") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
     const auto frames = [&](const std::string& seconds) {
@@ -288,7 +288,7 @@ TEST_CASE("--seconds is rounded up to whole frames, and 0.1 s at 90 frames/s is 
     REQUIRE(ordered_json::parse(run(scene, {"--json"}))["frames"] == 90); // without a word
 }
 
-TEST_CASE("--frames 0 shows the start") {
+TEST_CASE("run --frames 0 shows the start") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
     const ordered_json json = ordered_json::parse(run(scene, {"--frames", "0", "--json"}));

@@ -261,6 +261,25 @@ TEST_CASE("A changed scene is saved under a new name and opens again as it was")
     CHECK(driver.lab().scene.simulation.cloth.ks == 777);
 }
 
+TEST_CASE("Saving over another file takes a click on Replace: Enter alone does not") {
+    LabDriver driver;
+    const fs::path other = temporary("other.json");
+    std::ofstream(other) << "precious";
+    std::string after_enter;
+    REQUIRE(driver.act([&](ImGuiTestContext* user) {
+        leave_widgets(user);
+        user->KeyPress(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S);
+        user->Yield(3);
+        user->SetRef("//$FOCUSED");
+        user->ItemInputValue("##path", other.string().c_str());
+        user->Yield(3);
+        after_enter = scene::read_text_file(other);
+        user->ItemClick("###done");
+    }));
+    CHECK(after_enter == "precious");
+    CHECK(scene::load_scene(other) == driver.lab().scene);
+}
+
 TEST_CASE("Fewer points along the width restart the run with the pins where they belong") {
     LabDriver driver("four-pins");
     REQUIRE(driver.act([](ImGuiTestContext* user) {

@@ -1,0 +1,176 @@
+// Nobody waits for the simulation's thread, and it waits for nobody; whatever it is asked.
+#include <catch2/catch_message.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <memory>
+
+#include "support/random_scene.h"
+#include "support/simulation_thread.h"
+
+using namespace clothlab;
+using namespace clothlab::test;
+
+namespace {
+
+/// A cloth whose step takes a hundred times as long as a look at it: all points are in one cell of the self-collision.
+sim::Description slow_cloth() {
+    sim::Description d;
+    d.cloth.width = 100;
+    d.cloth.num_width_points = 2;
+    d.cloth.num_height_points = sanitized ? 800 : 2048;
+    d.cloth.thickness = 1e-6;
+    return d;
+}
+
+/// How often the newest snapshot can be had, and a command given now and then, until `enough` says so.
+template <class Enough>
+long count_calls(app::SimulationThread& thread, Enough enough) {
+    long calls = 0;
+    while (!enough(thread.latest()))
+        if (++calls % 1000 == 0)
+            thread.set_speed(1);
+    return calls;
+}
+
+} // namespace
+
+TEST_CASE("The newest snapshot can be had, and commands be given, as often during steps as between them") {
+    using Clock = std::chrono::steady_clock;
+    app::SimulationThread thread;
+    thread.start(slow_cloth());
+    thread.play(true);
+    const auto stepping = [](const app::Published& p) { return p.snapshot && p.snapshot->steps > 0; };
+    const auto first = wait_for(thread, stepping).snapshot;
+
+    const auto begin = Clock::now();
+    const long playing =
+        count_calls(thread, [&](const app::Published& p) { return p.snapshot->steps >= first->steps + 3; });
+    const auto duration = Clock::now() - begin;
+    REQUIRE(playing > 50);
+
+    // For as long with nothing to wait for. Were a call to wait for the step under way, there would be a hundred times
+    // as many now; a busy machine makes a difference of two or three.
+    thread.play(false);
+    thread.finish();
+    const auto again = Clock::now();
+    const long paused = count_calls(thread, [&](const app::Published&) { return Clock::now() - again >= duration; });
+    REQUIRE(playing > paused / 20);
+}
+
+TEST_CASE("Slow motion waits for the next frame, and shows the one it has meanwhile") {
+    app::SimulationThread thread;
+    thread.start(small_cloth());
+    thread.set_speed(1e-6); // the next frame is due in three hours
+    thread.play(true);
+    wait_for(thread, [](const app::Published& p) { return p.snapshot && p.snapshot->frame == 1; });
+    REQUIRE(finished(thread).snapshot->frame == 1); // it waits, so that finish() returns
+    REQUIRE(thread.latest().playing);
+    thread.set_speed(1e9);
+    wait_for(thread, [](const app::Published& p) { return p.snapshot->frame > 20; });
+}
+
+TEST_CASE("A blow-up pauses, with its cause to be seen, and a new start plays again") {
+    sim::Description description = small_cloth();
+    description.cloth.ks = 1e9;
+    description.rules.limit = sim::LimitRule::off;
+    app::SimulationThread thread;
+    thread.start(description);
+    thread.play(true);
+    const app::Published published = wait_for(thread, [](const app::Published& p) {
+        return p.snapshot && p.snapshot->diagnostics.status == sim::Status::diverged && !p.playing;
+    });
+    REQUIRE_FALSE(published.snapshot->diagnostics.cause.empty());
+    REQUIRE(finished(thread).snapshot->steps == published.snapshot->steps);
+    thread.start(small_cloth());
+    REQUIRE(finished(thread).snapshot->diagnostics.status == sim::Status::ok);
+    thread.play(true);
+    wait_for(thread, [](const app::Published& p) { return p.run == 2 && p.snapshot->steps > 0; });
+}
+
+TEST_CASE("A new start drops the steps that were still to be taken") {
+    app::SimulationThread thread;
+    thread.start(big_cloth());
+    thread.step(1'000'000);
+    thread.start(small_cloth());
+    const app::Published published = finished(thread);
+    REQUIRE(published.run == 2);
+    REQUIRE(published.snapshot->steps == 0);
+}
+
+TEST_CASE("Pausing drops the steps that were still to be taken") {
+    app::SimulationThread thread;
+    thread.start(big_cloth());
+    thread.step_frames(1'000'000);
+    thread.step(1'000'000);
+    thread.play(false);
+    REQUIRE_FALSE(finished(thread).playing);
+}
+
+TEST_CASE("The thread ends while it plays, with changes of a big scene still to be made") {
+    const auto thread = std::make_unique<app::SimulationThread>();
+    thread->start(big_cloth());
+    thread->play(true);
+    wait_for(*thread, [](const app::Published& p) { return p.snapshot && p.snapshot->steps > 0; });
+    sim::Description description = big_cloth();
+    for (int n = 0; n < 20; ++n) {
+        description.cloth.ks += 1;
+        thread->change(description);
+    }
+    thread->step(1'000'000);
+    // Its destruction here must not hang.
+}
+
+TEST_CASE("Any commands in any order leave a thread that does as it is told") {
+    for (int seed = 0; seed < attempts(60); ++seed) {
+        INFO("seed " << seed);
+        RandomScene random(static_cast<std::uint64_t>(seed));
+        app::SimulationThread thread;
+        sim::Description description = small_cloth();
+        std::uint64_t shown_run = 0;
+        for (int n = 0; n < 60; ++n) {
+            const int amount = static_cast<int>(random.below(12)) - 2;
+            switch (random.below(9)) {
+            case 0:
+                thread.start(description);
+                break;
+            case 1:
+                description.cloth.ks = std::abs(random.number());
+                thread.change(description);
+                break;
+            case 2:
+                description.cloth.num_height_points = 1 + static_cast<int>(random.below(8)); // 1 is refused
+                thread.change(description);
+                break;
+            case 3:
+                thread.play(random.below(2) == 0);
+                break;
+            case 4:
+                thread.step(amount);
+                break;
+            case 5:
+                thread.step_frames(amount);
+                break;
+            case 6:
+                thread.set_speed(1e-3 + 100 * static_cast<double>(random.below(100)));
+                break;
+            default: {
+                const app::Published published = thread.latest();
+                REQUIRE(published.run >= shown_run);
+                shown_run = published.run;
+                if (published.snapshot)
+                    REQUIRE(published.snapshot->positions.size() ==
+                            3u * static_cast<unsigned>(published.snapshot->columns * published.snapshot->rows));
+            }
+            }
+        }
+        thread.play(false);
+        description = small_cloth();
+        thread.start(description);
+        thread.step(7);
+        const auto simulation = sim::Simulation::create(description);
+        for (int n = 0; n < 7; ++n)
+            simulation->step();
+        REQUIRE(shows(finished(thread), *simulation));
+        REQUIRE(thread.latest().error.empty());
+    }
+}
