@@ -55,18 +55,23 @@ void append(std::string& text, double value, bool single) {
     text.append(digits, result.ptr);
 }
 
+/// Appends a point and the end of its line.
+void append(std::string& text, const sim::Vec3& p, char separator, bool single) {
+    append(text, p.x, single);
+    text += separator;
+    append(text, p.y, single);
+    text += separator;
+    append(text, p.z, single);
+    text += '\n';
+}
+
 void write_csv_frame(Output& csv, const sim::Simulation& simulation) {
     const bool single = simulation.description().stepping.precision == sim::Precision::single_precision;
     std::string text;
     for (std::size_t i = 0; i < simulation.points(); ++i) {
         const sim::Vec3 p = simulation.position(i);
         text += std::to_string(simulation.frame()) + "," + std::to_string(i) + ",";
-        append(text, p.x, single);
-        text += ",";
-        append(text, p.y, single);
-        text += ",";
-        append(text, p.z, single);
-        text += "\n";
+        append(text, p, ',', single);
     }
     csv.write(text);
 }
@@ -79,12 +84,7 @@ void write_obj(const std::string& file, const sim::Simulation& simulation, const
     for (std::size_t i = 0; i < simulation.points(); ++i) {
         const sim::Vec3 p = simulation.position(i);
         text += "v ";
-        append(text, p.x, single);
-        text += " ";
-        append(text, p.y, single);
-        text += " ";
-        append(text, p.z, single);
-        text += "\n";
+        append(text, p, ' ', single);
     }
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {

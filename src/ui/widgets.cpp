@@ -192,12 +192,14 @@ void field_row(Lab& lab, std::string_view key) {
     ImGui::PopID();
 }
 
-bool number_row(const char* label, const char* help, double& value, double loaded, double min, double max,
-                const char* format) {
+namespace {
+
+/// A row with a label, a widget that edit() draws, and a reset.
+template <class Value, class Edit>
+bool value_row(const char* label, const char* help, Value& value, const Value& loaded, Edit edit) {
     ImGui::PushID(label);
     label_cell(label, help, value != loaded);
-    bool edited =
-        ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &min, &max, format, ImGuiSliderFlags_AlwaysClamp);
+    bool edited = edit();
     tooltip(help);
     if (reset_cell(value != loaded)) {
         value = loaded;
@@ -207,18 +209,19 @@ bool number_row(const char* label, const char* help, double& value, double loade
     return edited;
 }
 
+} // namespace
+
+bool number_row(const char* label, const char* help, double& value, double loaded, double min, double max,
+                const char* format) {
+    return value_row(label, help, value, loaded, [&] {
+        return ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &min, &max, format,
+                                   ImGuiSliderFlags_AlwaysClamp);
+    });
+}
+
 bool vector_row(const char* label, const char* help, sim::Vec3& value, const sim::Vec3& loaded, double min, double max,
                 const char* format) {
-    ImGui::PushID(label);
-    label_cell(label, help, value != loaded);
-    bool edited = edit_vector(value, min, max, format);
-    tooltip(help);
-    if (reset_cell(value != loaded)) {
-        value = loaded;
-        edited = true;
-    }
-    ImGui::PopID();
-    return edited;
+    return value_row(label, help, value, loaded, [&] { return edit_vector(value, min, max, format); });
 }
 
 void tooltip(const std::string& text) {
