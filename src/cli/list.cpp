@@ -88,6 +88,12 @@ std::string cell(const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+/// Characters of a UTF-8 text: its bytes but those that continue one.
+std::size_t width(const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
 /// Columns as wide as their widest cell; the last, the help text, runs on.
 void print_table(const Json& rows) {
     std::vector<std::size_t> widths;
@@ -95,7 +101,7 @@ void print_table(const Json& rows) {
         std::size_t i = 0;
         for (const auto& item : row.items()) {
             widths.resize(std::max(widths.size(), i + 1));
-            widths[i] = std::max(widths[i], cell(item.value()).size());
+            widths[i] = std::max(widths[i], width(cell(item.value())));
             ++i;
         }
     }
@@ -105,7 +111,7 @@ void print_table(const Json& rows) {
         for (const auto& item : row.items()) {
             std::string text = cell(item.value());
             if (i + 1 < widths.size())
-                text.resize(widths[i] + 2, ' ');
+                text.append(widths[i] + 2 - width(text), ' ');
             line += text;
             ++i;
         }

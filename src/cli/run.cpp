@@ -26,10 +26,11 @@ using Json = nlohmann::ordered_json;
 /// A file that complains, by name, when it cannot be written.
 class Output {
 public:
-    explicit Output(std::string name) : name_(std::move(name)) {
+    /// Replaces the file; with std::ios::app, leaves what is in it.
+    explicit Output(std::string name, std::ios::openmode mode = std::ios::trunc) : name_(std::move(name)) {
         if (name_ == "-")
             return;
-        file_.open(name_, std::ios::binary | std::ios::trunc);
+        file_.open(name_, std::ios::binary | mode);
         if (!file_)
             fail();
     }
@@ -198,6 +199,10 @@ int run(const RunArguments& arguments) {
     const auto simulation = sim::Simulation::create(scene.simulation);
     if (!arguments.resume.empty())
         resume(arguments.resume, *simulation);
+    // Before the work, not after it: that an output cannot be written.
+    for (const std::string& file : {arguments.obj, arguments.state})
+        if (!file.empty())
+            Output(file, std::ios::app).close();
     simulation->time_stages(true);
     std::optional<Output> csv;
     if (!arguments.csv.empty()) {

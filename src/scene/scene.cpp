@@ -41,8 +41,21 @@ Camera fitting_camera(const sim::Description& description) {
     }
     Camera camera;
     camera.target = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
-    const double radius = std::hypot(high.x - low.x, high.y - low.y, high.z - low.z) / 2;
-    camera.distance = 0.92 * radius / std::sin(camera.fov / 2 * std::numbers::pi / 180);
+    // As near as every corner of the box allows, in a square picture, and a little margin.
+    const CameraFrame axes = frame(camera);
+    const sim::Vec3 half{(high.x - low.x) / 2, (high.y - low.y) / 2, (high.z - low.z) / 2};
+    const auto along = [](const sim::Vec3& a, const sim::Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+    const sim::Vec3 back{(axes.eye.x - camera.target.x) / camera.distance,
+                         (axes.eye.y - camera.target.y) / camera.distance,
+                         (axes.eye.z - camera.target.z) / camera.distance};
+    const double slope = std::tan(camera.fov / 2 * std::numbers::pi / 180);
+    double distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const sim::Vec3 c{corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z};
+        const double off_axis = std::max(std::abs(along(c, axes.right)), std::abs(along(c, axes.up)));
+        distance = std::max(distance, along(c, back) + off_axis / slope);
+    }
+    camera.distance = 1.06 * distance;
     return camera;
 }
 

@@ -36,7 +36,8 @@ public:
     /// Starts a run of a description at time 0, paused or playing as before. A description without meaning is refused
     /// (Published::error) and the run under way goes on.
     void start(const sim::Description& description);
-    /// Changes the parameters of the run between two steps; where can_change_live says no, starts anew.
+    /// Changes the parameters of the run between two steps, before steps that were asked for earlier and are still to
+    /// be taken; where can_change_live says no, starts anew.
     void change(const sim::Description& description);
 
     void play(bool on);
