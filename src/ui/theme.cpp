@@ -101,6 +101,7 @@ void apply_theme(float scale) {
     c[ImGuiCol_ScrollbarBg] = grey(0.135f, 0);
     c[ImGuiCol_ScrollbarGrab] = grey(0.25f);
     c[ImGuiCol_DockingPreview] = faded(colour::accent, 0.5f);
+    c[ImGuiCol_ModalWindowDimBg] = grey(0.02f, 0.55f);
     c[ImGuiCol_DockingEmptyBg] = grey(0.09f);
     c[ImGuiCol_NavCursor] = faded(colour::accent, 0.8f);
     c[ImGuiCol_TextSelectedBg] = faded(colour::accent, 0.35f);
