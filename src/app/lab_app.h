@@ -41,8 +41,6 @@ public:
     void show_frame(int frame);
     /// The whole window as it was last drawn; only offscreen, where there is no screen to look at.
     render::Image picture() const { return whole_.value().read(); }
-    /// The viewport as it was last drawn.
-    render::Image viewport_picture() const { return viewport_.read(); }
 
     /// Opens a scene file. One that is wrong leaves everything as it was, and the lab says why; then false.
     bool open(const std::filesystem::path& file);

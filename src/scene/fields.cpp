@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/integrators/integrator.h"
+#include "sim/units.h"
 
 namespace clothlab::scene {
 namespace {

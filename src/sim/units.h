@@ -8,10 +8,6 @@ namespace clothlab::sim {
 constexpr double grams_per_cm2(double kilograms_per_m2) {
     return kilograms_per_m2 / 10.0;
 }
-/// The course interface's g/cm² to kg/m².
-constexpr double kilograms_per_m2(double grams_per_cm2) {
-    return grams_per_cm2 * 10.0;
-}
 /// Percent to a fraction of one.
 constexpr double fraction(double percent) {
     return percent / 100.0;
