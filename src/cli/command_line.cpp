@@ -90,7 +90,6 @@ scene::Scene SceneArguments::load() const {
 int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
     CLI::App app("clothlab: an interactive laboratory for mass-spring cloth", "clothlab");
     app.set_version_flag("--version", "clothlab " CLOTHLAB_VERSION);
-    app.footer("Without a subcommand, clothlab opens the lab's window on the scene.");
     int status = 0;
 
     LabArguments lab;
@@ -120,6 +119,7 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
     list_command->add_flag("--json", list_json, "As JSON");
     list_command->final_callback([&] { status = list(what, list_json); });
     app.require_subcommand(0, 1);
+    app.footer("Without a subcommand, clothlab opens the lab's window on the scene.");
 
     try {
         app.parse(argc, argv);

@@ -1,6 +1,4 @@
 // The commands that draw: `clothlab render`, and the lab where there is no display.
-#include <unistd.h>
-
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_exception.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
@@ -12,6 +10,7 @@
 #include "cli/gui/gui_commands.h"
 #include "render/image.h"
 #include "scene/error.h"
+#include "support/files.h"
 
 namespace clothlab::test {
 namespace {
@@ -19,18 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::ContainsSubstring;
 using Catch::Matchers::MessageMatches;
-
-class Folder {
-public:
-    Folder() : path_(fs::temp_directory_path() / ("clothlab-commands-" + std::to_string(::getpid()))) {
-        fs::create_directories(path_);
-    }
-    ~Folder() { fs::remove_all(path_); }
-    std::string operator/(const char* name) const { return (path_ / name).string(); }
-
-private:
-    fs::path path_;
-};
 
 cli::RenderArguments picture_of(const std::string& scene, const std::string& output) {
     cli::RenderArguments arguments;
@@ -49,14 +36,14 @@ int render(const cli::RenderArguments& arguments) {
 } // namespace
 
 TEST_CASE("render draws the viewport or the whole lab, of the size asked for") {
-    const Folder folder;
-    cli::RenderArguments arguments = picture_of("two-pins", folder / "scene.png");
+    const TemporaryFolder folder;
+    cli::RenderArguments arguments = picture_of("two-pins", (folder / "scene.png").string());
     REQUIRE(render(arguments) == 0);
     const render::Image scene = render::read_png(arguments.output);
     CHECK(scene.width == 320);
     CHECK(scene.height == 200);
     arguments.ui = true;
-    arguments.output = folder / "lab.png";
+    arguments.output = (folder / "lab.png").string();
     REQUIRE(render(arguments) == 0);
     const render::Image lab = render::read_png(arguments.output);
     CHECK(lab.width == 320);
@@ -65,12 +52,12 @@ TEST_CASE("render draws the viewport or the whole lab, of the size asked for") {
 }
 
 TEST_CASE("Frame, shader, camera and settings each change the picture") {
-    const Folder folder;
-    const cli::RenderArguments plain = picture_of("two-pins", folder / "plain.png");
+    const TemporaryFolder folder;
+    const cli::RenderArguments plain = picture_of("two-pins", (folder / "plain.png").string());
     REQUIRE(render(plain) == 0);
     const render::Image expected = render::read_png(plain.output);
     const auto differs = [&](cli::RenderArguments arguments) {
-        arguments.output = folder / "other.png";
+        arguments.output = (folder / "other.png").string();
         REQUIRE(render(arguments) == 0);
         return render::difference(render::read_png(arguments.output), expected) > 0.002;
     };
@@ -80,33 +67,34 @@ TEST_CASE("Frame, shader, camera and settings each change the picture") {
     CHECK(differs(later));
     wireframe.shader = "wireframe";
     CHECK(differs(wireframe));
-    std::ofstream(folder / "camera.json") << R"({"target": [0.5, 0.9, 0.5], "distance": 5, "yaw": 90, "pitch": 60})";
-    camera.camera = folder / "camera.json";
+    std::ofstream((folder / "camera.json").string())
+        << R"({"target": [0.5, 0.9, 0.5], "distance": 5, "yaw": 90, "pitch": 60})";
+    camera.camera = (folder / "camera.json").string();
     CHECK(differs(camera));
     setting.scene.settings = {"cloth.offset=0.3,0,0"};
     CHECK(differs(setting));
 }
 
 TEST_CASE("A picture that cannot be drawn or written is refused with a sentence") {
-    const Folder folder;
-    cli::RenderArguments arguments = picture_of("two-pins", folder / "picture.gif");
+    const TemporaryFolder folder;
+    cli::RenderArguments arguments = picture_of("two-pins", (folder / "picture.gif").string());
     CHECK_THROWS_MATCHES(render(arguments), scene::SceneError, MessageMatches(ContainsSubstring("FILE.png")));
-    arguments.output = folder / "picture.png";
+    arguments.output = (folder / "picture.png").string();
     arguments.shader = "velvet";
     CHECK_THROWS_MATCHES(render(arguments), scene::SceneError,
                          MessageMatches(ContainsSubstring("velvet") && ContainsSubstring("diffuse")));
     arguments.shader.clear();
-    arguments.camera = folder / "none.json";
+    arguments.camera = (folder / "none.json").string();
     CHECK_THROWS_MATCHES(render(arguments), scene::SceneError, MessageMatches(ContainsSubstring("none.json")));
     arguments.camera.clear();
-    arguments.output = folder / "no/folder/picture.png";
+    arguments.output = (folder / "no/folder/picture.png").string();
     CHECK_THROWS_MATCHES(render(arguments), std::runtime_error,
                          MessageMatches(ContainsSubstring("no/folder/picture.png")));
 }
 
 TEST_CASE("A film is an MP4 file, also of an odd size, without ffmpeg the command says what is missing") {
-    const Folder folder;
-    cli::RenderArguments arguments = picture_of("two-pins", folder / "it's a film.mp4");
+    const TemporaryFolder folder;
+    cli::RenderArguments arguments = picture_of("two-pins", (folder / "it's a film.mp4").string());
     arguments.width = 161;
     arguments.height = 101;
     arguments.frame = 9;
@@ -126,10 +114,10 @@ TEST_CASE("With no display the lab draws itself into a picture with a draped clo
     ::unsetenv("DISPLAY");
     ::unsetenv("WAYLAND_DISPLAY");
     ::unsetenv("WAYLAND_SOCKET");
-    const Folder folder;
+    const TemporaryFolder folder;
     cli::LabArguments arguments;
     arguments.scene.settings = {"cloth.num_width_points=30", "cloth.num_height_points=30"};
-    arguments.picture = folder / "lab.png";
+    arguments.picture = (folder / "lab.png").string();
     REQUIRE(cli::gui_commands().lab(arguments) == 0);
     const render::Image lab = render::read_png(arguments.picture);
     CHECK(lab.width == 1440);

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <fstream>
 
-#include <unistd.h>
-
 #include "lab_driver.h"
 #include "scene/fields.h"
+#include "support/files.h"
 #include "ui/icons.h"
 
 namespace clothlab::test {
@@ -23,8 +22,7 @@ void leave_widgets(ImGuiTestContext* user) {
 }
 
 fs::path temporary(const char* name) {
-    const fs::path folder = fs::temp_directory_path() / ("clothlab-gui-test-" + std::to_string(::getpid()));
-    fs::create_directories(folder);
+    static const TemporaryFolder folder;
     return folder / name;
 }
 

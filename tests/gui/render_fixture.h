@@ -3,14 +3,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <random>
 #include <string>
 
 #include <catch2/catch_test_macros.hpp>
 
 #include "gui/gl_context.h"
 #include "render/renderer.h"
+#include "support/files.h"
 
 namespace clothlab::test {
 
@@ -88,20 +87,6 @@ struct Studio {
         CHECK(glGetError() == GL_NO_ERROR);
         return image;
     }
-};
-
-/// A folder that is there while the object lives.
-struct TemporaryFolder {
-    std::filesystem::path path;
-    explicit TemporaryFolder(const std::string& name)
-        : path(std::filesystem::temp_directory_path() / (name + "-" + std::to_string(std::random_device{}()))) {
-        std::filesystem::create_directories(path);
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
 };
 
 } // namespace clothlab::test

@@ -32,24 +32,24 @@ std::string message_of(Action action) {
 } // namespace
 
 TEST_CASE("A PNG written and read back is the same", "[image]") {
-    const TemporaryFolder folder("clothlab-png");
+    const TemporaryFolder folder;
     render::Image image = plain(37, 11, 0);
     for (std::size_t i = 0; i < image.rgba.size(); ++i)
         image.rgba[i] = static_cast<std::uint8_t>(i * 7919 >> 3);
-    render::write_png(image, folder.path / "a.png");
-    CHECK(render::read_png(folder.path / "a.png") == image);
+    render::write_png(image, folder / "a.png");
+    CHECK(render::read_png(folder / "a.png") == image);
 }
 
 TEST_CASE("A picture that cannot be written or read is named with the reason", "[image]") {
-    const TemporaryFolder folder("clothlab-png");
-    const auto path = folder.path / "no" / "a.png";
+    const TemporaryFolder folder;
+    const auto path = folder / "no" / "a.png";
     const std::string written = message_of([&] { render::write_png(plain(2, 2, 0), path); });
     CHECK(written.find(path.string()) != std::string::npos);
     CHECK(written.find("No such file") != std::string::npos);
-    CHECK(message_of([&] { render::write_png({}, folder.path / "b.png"); }).find("empty") != std::string::npos);
-    CHECK(message_of([&] { render::write_png(plain(2, 2, 0), folder.path); }).find("irectory") != std::string::npos);
-    folder.write("c.png", "no picture");
-    for (const auto& name : {folder.path / "c.png", folder.path / "d.png", folder.path})
+    CHECK(message_of([&] { render::write_png({}, folder / "b.png"); }).find("empty") != std::string::npos);
+    CHECK(message_of([&] { render::write_png(plain(2, 2, 0), folder.path()); }).find("irectory") != std::string::npos);
+    write_file(folder / "c.png", "no picture");
+    for (const auto& name : {folder / "c.png", folder / "d.png", folder.path()})
         CHECK(message_of([&] { render::read_png(name); }).find(name.string()) != std::string::npos);
 }
 

@@ -14,25 +14,25 @@ TEST_CASE("Shaders are the files of a folder", "[shaders]") {
 }
 
 TEST_CASE("Includes are put in once, with the lines they came from", "[shaders]") {
-    const TemporaryFolder folder("clothlab-includes");
-    folder.write("main.frag", "#version 330 core\n#include \"a.glsl\"\n#include \"b.glsl\"\nend\n");
-    folder.write("a.glsl", "#include \"b.glsl\"\nin a"); // no newline at the end
-    folder.write("b.glsl", "in b\r\n");
-    const render::ShaderSource source = render::read_shader(folder.path, "main.frag");
+    const TemporaryFolder folder;
+    write_file(folder / "main.frag", "#version 330 core\n#include \"a.glsl\"\n#include \"b.glsl\"\nend\n");
+    write_file(folder / "a.glsl", "#include \"b.glsl\"\nin a"); // no newline at the end
+    write_file(folder / "b.glsl", "in b\r\n");
+    const render::ShaderSource source = render::read_shader(folder.path(), "main.frag");
     CHECK(source.text == "#version 330 core\nin b\nin a\nend\n");
     const std::pair<const char*, int> origins[] = {{"main.frag", 1}, {"b.glsl", 1}, {"a.glsl", 2}, {"main.frag", 4}};
     REQUIRE(source.lines.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) {
-        CHECK(source.files[source.lines[i].file] == folder.path / origins[i].first);
+        CHECK(source.files[source.lines[i].file] == folder / origins[i].first);
         CHECK(source.lines[i].number == origins[i].second);
     }
 
-    folder.write("a.glsl", "\n#include \"c.glsl\"\n");
+    write_file(folder / "a.glsl", "\n#include \"c.glsl\"\n");
     try {
-        render::read_shader(folder.path, "main.frag");
+        render::read_shader(folder.path(), "main.frag");
         FAIL("no error");
     } catch (const render::ShaderError& error) {
-        CHECK(error.file() == folder.path / "a.glsl");
+        CHECK(error.file() == folder / "a.glsl");
         CHECK(error.line() == 2);
         CHECK(std::string(error.what()).find("c.glsl") != std::string::npos);
     }
@@ -57,9 +57,9 @@ TEST_CASE("The messages of every driver are understood", "[shaders]") {
 
 TEST_CASE("A broken shader is reported with its file and line, and nothing is drawn", "[render]") {
     Studio studio;
-    const TemporaryFolder folder("clothlab-shaders");
-    std::filesystem::copy(shader_folder, folder.path, std::filesystem::copy_options::recursive);
-    render::Renderer renderer(folder.path);
+    const TemporaryFolder folder;
+    std::filesystem::copy(shader_folder, folder.path(), std::filesystem::copy_options::recursive);
+    render::Renderer renderer(folder.path());
     const sim::Snapshot cloth = flat_cloth(4, 4);
     render::Scene scene = scene_of(cloth);
     renderer.draw(scene, studio.target);
@@ -78,19 +78,19 @@ TEST_CASE("A broken shader is reported with its file and line, and nothing is dr
         throw 0;
     };
     const std::string start = "#version 330 core\n#include \"common/frame.glsl\"\n#include \"common/cloth.glsl\"\n";
-    folder.write("cloth/typo.frag", start + "void main() {\n    pixel = vec4(seen_color(), 1.0);\n}\n");
+    write_file(folder / "cloth/typo.frag", start + "void main() {\n    pixel = vec4(seen_color(), 1.0);\n}\n");
     const render::ShaderError typo = error_of("typo");
     CHECK(typo.line() == 5);
-    CHECK(typo.file() == folder.path / "cloth/typo.frag");
+    CHECK(typo.file() == folder / "cloth/typo.frag");
     CHECK(std::string(typo.what()).find("typo.frag:5") != std::string::npos);
     CHECK(std::string(typo.what()).find("seen_color") != std::string::npos);
 
-    folder.write("common/wrong.glsl", "float fine() { return 1.0; }\nfloat wrong() { return nothing; }\n");
-    folder.write("cloth/inner.frag",
-                 start + "#include \"common/wrong.glsl\"\nvoid main() { pixel = vec4(wrong()); }\n");
+    write_file(folder / "common/wrong.glsl", "float fine() { return 1.0; }\nfloat wrong() { return nothing; }\n");
+    write_file(folder / "cloth/inner.frag",
+               start + "#include \"common/wrong.glsl\"\nvoid main() { pixel = vec4(wrong()); }\n");
     const render::ShaderError inner = error_of("inner");
     CHECK(inner.line() == 2);
-    CHECK(inner.file() == folder.path / "common/wrong.glsl");
+    CHECK(inner.file() == folder / "common/wrong.glsl");
 
     const std::string unknown = error_of("no-such").what();
     CHECK(unknown.find("no-such") != std::string::npos);
@@ -98,14 +98,14 @@ TEST_CASE("A broken shader is reported with its file and line, and nothing is dr
     error_of("../cloth/diffuse");
 
     // A shader of two files, mended while the renderer lives.
-    folder.write("cloth/typo.frag", start + "void main() { pixel = vec4(1.0, 0.0, 1.0, 1.0); }\n");
+    write_file(folder / "cloth/typo.frag", start + "void main() { pixel = vec4(1.0, 0.0, 1.0, 1.0); }\n");
     scene.options.shader = "typo";
     renderer.draw(scene, studio.target);
     CHECK(studio.target.read().pixel(80, 45)[0] == 255);
 
-    folder.write("lines.geom", "#version 330 core\nnonsense\n");
+    write_file(folder / "lines.geom", "#version 330 core\nnonsense\n");
     CHECK_THROWS_AS(renderer.reload_shaders(), render::ShaderError);
     renderer.draw(scene, studio.target);
-    CHECK_THROWS_AS(render::Renderer(folder.path), render::ShaderError);
-    CHECK_THROWS_AS(render::Renderer(folder.path / "missing"), render::ShaderError);
+    CHECK_THROWS_AS(render::Renderer(folder.path()), render::ShaderError);
+    CHECK_THROWS_AS(render::Renderer(folder / "missing"), render::ShaderError);
 }
