@@ -25,6 +25,7 @@ void draw_path_window(Lab& lab, bool open, bool save) {
         typed.text = lab.file.string();
         typed.save = save;
         ImGui::OpenPopup(path_window);
+        ImGui::SetNextWindowFocus(); // in front, also while no window has the focus yet
     }
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
     if (!ImGui::BeginPopupModal(path_window, nullptr, ImGuiWindowFlags_AlwaysAutoResize))
@@ -65,8 +66,10 @@ void draw_path_window(Lab& lab, bool open, bool save) {
 }
 
 void draw_help_window(bool open) {
-    if (open)
+    if (open) {
         ImGui::OpenPopup(help_window);
+        ImGui::SetNextWindowFocus();
+    }
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
     if (!ImGui::BeginPopupModal(help_window, nullptr, ImGuiWindowFlags_AlwaysAutoResize))
         return;
@@ -114,13 +117,13 @@ void file_menu(Lab& lab, Windows& windows) {
     }
     if (ImGui::MenuItem(ICON_FA_FLOPPY_DISK "  Save", "Ctrl+S"))
         save(lab, windows);
-    if (ImGui::MenuItem("      Save as ...", "Ctrl+Shift+S"))
+    if (ImGui::MenuItem(ICON_FA_FILE_EXPORT "  Save as ...", "Ctrl+Shift+S"))
         windows.save = true;
     ImGui::Separator();
     if (ImGui::MenuItem(ICON_FA_CAMERA "  Screenshot", "F12"))
         lab.ask(Screenshot{});
     ImGui::Separator();
-    if (ImGui::MenuItem("      Quit", "Ctrl+Q"))
+    if (ImGui::MenuItem(ICON_FA_POWER_OFF "  Quit", "Ctrl+Q"))
         lab.ask(Quit{});
 }
 
@@ -130,7 +133,7 @@ void view_menu(Lab& lab) {
 #include "ui/panels.def"
 #undef CLOTHLAB_PANEL
     ImGui::Separator();
-    if (ImGui::MenuItem("      Default layout"))
+    if (ImGui::MenuItem(ICON_FA_TABLE_COLUMNS "  Default layout"))
         lab.ask(ResetLayout{});
 }
 
