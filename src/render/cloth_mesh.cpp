@@ -104,9 +104,10 @@ void ClothMesh::make_indices() {
 
     std::array<std::vector<std::uint32_t>, sim::spring_kinds> ends;
     const auto columns = static_cast<std::uint32_t>(columns_);
-    sim::for_each_spring(columns_, rows_, [&](std::uint32_t a, std::uint32_t b, sim::SpringKind kind) {
+    sim::for_each_spring(columns_, rows_, [&](std::uint32_t a, std::uint32_t b, std::size_t spring) {
         if (!good(a) || !good(b))
             return;
+        const sim::SpringKind kind = sim::spring_stencil[spring].kind;
         if (kind == sim::SpringKind::bending) {
             const std::uint32_t along = a - b == 2 ? a % columns : a / columns;
             if (along % 2 == 1)

@@ -1,7 +1,10 @@
-// Arrays that start on a cache line, so that vector loads never straddle one.
+// Arrays that start on a cache line and end with some memory to spare, so that the last vector of points may be read
+// and written whole.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstring>
 #include <new>
 #include <vector>
 
@@ -14,7 +17,12 @@ struct CacheLineAllocator {
     CacheLineAllocator() = default;
     template <class U>
     CacheLineAllocator(const CacheLineAllocator<U>&) {}
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
+    static constexpr std::size_t spare = 64; ///< bytes: a vector of the widest instruction set
+    T* allocate(std::size_t n) {
+        auto* bytes = static_cast<std::byte*>(::operator new(n * sizeof(T) + spare, alignment));
+        std::memset(bytes + n * sizeof(T), 0, spare);
+        return reinterpret_cast<T*>(bytes);
+    }
     void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
     bool operator==(const CacheLineAllocator&) const = default;
 };
@@ -32,6 +40,9 @@ struct Vec3Array {
         z.resize(n);
     }
     std::size_t size() const { return x.size(); }
+    std::array<Real*, 3> axes() { return {x.data(), y.data(), z.data()}; }
+    std::array<const Real*, 3> axes() const { return {x.data(), y.data(), z.data()}; }
+    std::size_t bytes() const { return (x.capacity() + y.capacity() + z.capacity()) * sizeof(Real); }
     bool operator==(const Vec3Array&) const = default;
 };
 

@@ -29,8 +29,9 @@ std::string sentence(const char* format, auto... arguments) {
 template <class Real>
 std::string divergence_cause(const Model<Real>& model, const char* what) {
     double k = 0;
-    for (std::size_t i = 0; i < model.spring_k.size(); ++i)
-        k = std::max(k, static_cast<double>(model.spring_k[i]));
+    for (std::size_t kind = 0; kind < model.k.size(); ++kind)
+        if (model.enabled[kind])
+            k = std::max(k, static_cast<double>(model.k[kind]));
     const double mass = static_cast<double>(model.mass);
     if (mass < 0)
         return sentence("%s: the density is negative, so springs push where they should pull", what);
@@ -67,27 +68,21 @@ Diagnostics diagnose(const Model<Real>& model, const State<Real>& state) {
     result.energy.gravity = gravity_energy(model, x);
     result.rms_speed = std::sqrt(square_speed / static_cast<double>(x.size()));
 
-    const Springs<Real>& springs = model.grid->springs;
+    const Grid<Real>& grid = *model.grid;
     double longest = 0;
-    for (std::size_t i = 0; i < springs.size(); ++i) {
-        const std::uint32_t a = springs.a[i], b = springs.b[i];
+    for_each_spring(grid.columns, grid.rows, [&](std::uint32_t a, std::uint32_t b, std::size_t spring) {
         const double dx = d(x.x[b]) - d(x.x[a]), dy = d(x.y[b]) - d(x.y[a]), dz = d(x.z[b]) - d(x.z[a]);
-        const double ratio = (dx * dx + dy * dy + dz * dz) / (d(springs.rest[i]) * d(springs.rest[i]));
+        const double rest = d(grid.rest_length(spring, a));
+        const double ratio = (dx * dx + dy * dy + dz * dz) / (rest * rest);
         longest = std::max(longest, ratio);
-    }
+    });
     result.max_strain = std::max(0.0, std::sqrt(longest) - 1);
 
-    double size = 0; // the diagonal of the flat cloth
-    {
-        const Vec3Array<Real>& s = model.grid->start;
-        const std::size_t last = s.size() - 1;
-        size = std::hypot(d(s.x[last]) - d(s.x[0]), d(s.y[last]) - d(s.y[0]), d(s.z[last]) - d(s.z[0]));
-    }
     const double extent = std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
     if (!std::isfinite(square_speed) || !std::isfinite(extent)) {
         result.status = Status::diverged;
         result.cause = divergence_cause(model, "positions are no longer finite");
-    } else if (extent > blown_up * size) {
+    } else if (extent > blown_up * grid.diagonal) {
         result.status = Status::diverged;
         result.cause = divergence_cause(model, "the cloth is over 100 times its own size");
     }

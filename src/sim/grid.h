@@ -1,6 +1,7 @@
 // The cloth's topology: which masses there are, which springs tie them, which triangles they span. Immutable for a run.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -21,22 +22,28 @@ struct SpringStencil {
     int columns, rows;
     SpringKind kind;
 };
-inline constexpr SpringStencil spring_stencil[] = {
-    {0, -1, SpringKind::structural}, {-1, 0, SpringKind::structural}, {-1, -1, SpringKind::shear},
-    {1, -1, SpringKind::shear},      {-2, 0, SpringKind::bending},    {0, -2, SpringKind::bending},
-};
+inline constexpr std::size_t stencil_size = 6;
+inline constexpr std::array<SpringStencil, stencil_size> spring_stencil{{
+    {0, -1, SpringKind::structural},
+    {-1, 0, SpringKind::structural},
+    {-1, -1, SpringKind::shear},
+    {1, -1, SpringKind::shear},
+    {-2, 0, SpringKind::bending},
+    {0, -2, SpringKind::bending},
+}};
 
-/// Calls visit(a, b, kind) for every spring of a grid, in order.
+/// Calls visit(a, b, s) for every spring of a grid, in order; s is its entry in the stencil.
 template <class Visit>
 void for_each_spring(int columns, int rows, Visit visit) {
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            for (const SpringStencil& s : spring_stencil) {
+            for (std::size_t i = 0; i < stencil_size; ++i) {
+                const SpringStencil& s = spring_stencil[i];
                 const int to_column = column + s.columns, to_row = row + s.rows;
                 if (to_column < 0 || to_column >= columns || to_row < 0)
                     continue;
                 visit(static_cast<std::uint32_t>(row * columns + column),
-                      static_cast<std::uint32_t>(to_row * columns + to_column), s.kind);
+                      static_cast<std::uint32_t>(to_row * columns + to_column), i);
             }
         }
     }
@@ -56,22 +63,21 @@ void for_each_triangle(int columns, int rows, Visit visit) {
     }
 }
 
-/// Springs as parallel arrays: ends, rest length in m, kind.
-template <class Real>
-struct Springs {
-    std::vector<std::uint32_t> a, b;
-    AlignedVector<Real> rest;
-    std::vector<SpringKind> kind;
-    std::size_t size() const { return a.size(); }
-};
-
-/// Masses, springs and start positions of a cloth in one precision.
+/// The topology and rest lengths of a cloth in one precision. The springs are those of the stencil, so no list of them
+/// is kept.
 template <class Real>
 struct Grid {
     int columns = 0, rows = 0;
-    Springs<Real> springs;
-    Vec3Array<Real> start;
-    std::size_t points() const { return start.size(); }
+    /// Per stencil entry: the rest length in m of each point's own spring, or, where all are alike, one vector full of
+    /// that length.
+    std::array<AlignedVector<Real>, stencil_size> rest;
+    std::size_t rest_mask =
+        0; ///< what to take of a point's index in those arrays: all bits, or none where all are alike
+    Real shortest = 0, longest = 0; ///< of all rest lengths, m
+    double diagonal = 0;            ///< m, of the start positions' first to their last point
+
+    Real rest_length(std::size_t s, std::size_t point) const { return rest[s][point & rest_mask]; }
+    std::size_t points() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
 /// Builds the grid that the description asks for; throws std::invalid_argument when it has fewer than two columns or
@@ -79,7 +85,13 @@ struct Grid {
 template <class Real>
 Grid<Real> make_grid(const Description& description);
 
+/// Where the points are at the beginning, in m.
+template <class Real>
+Vec3Array<Real> start_positions(const Description& description);
+
 extern template Grid<float> make_grid<float>(const Description&);
 extern template Grid<double> make_grid<double>(const Description&);
+extern template Vec3Array<float> start_positions<float>(const Description&);
+extern template Vec3Array<double> start_positions<double>(const Description&);
 
 } // namespace clothlab::sim

@@ -1,7 +1,6 @@
 #include "sim/model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -29,30 +28,6 @@ std::variant<SphereModel<Real>, PlaneModel<Real>> collider_model(const Collider&
                             real(n.y / length), real(n.z / length), real(1.0 - p.friction)};
 }
 
-template <class Real>
-void select_springs(const Cloth& cloth, Model<Real>& model) {
-    const Springs<Real>& all = model.grid->springs;
-    const std::array enabled{cloth.enable_structural, cloth.enable_shearing, cloth.enable_bending};
-    const std::array k{static_cast<Real>(cloth.ks), static_cast<Real>(cloth.ks),
-                       static_cast<Real>(bending_share * cloth.ks)};
-    const auto kind_of = [&](std::size_t i) { return static_cast<std::size_t>(all.kind[i]); };
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        count += enabled[kind_of(i)] ? 1u : 0u;
-    model.spring_a.reserve(count);
-    model.spring_b.reserve(count);
-    model.spring_rest.reserve(count);
-    model.spring_k.reserve(count);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!enabled[kind_of(i)])
-            continue;
-        model.spring_a.push_back(all.a[i]);
-        model.spring_b.push_back(all.b[i]);
-        model.spring_rest.push_back(all.rest[i]);
-        model.spring_k.push_back(k[kind_of(i)]);
-    }
-}
-
 } // namespace
 
 template <class Real>
@@ -68,6 +43,7 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
 
     const auto real = [](double v) { return static_cast<Real>(v); };
     Model<Real> model;
+    model.k = {real(cloth.ks), real(cloth.ks), real(bending_share * cloth.ks)};
     model.grid = std::move(grid);
     model.pinned.assign(model.grid->points(), 0);
     for (const auto [column, row] : cloth.pinned) {
@@ -76,7 +52,10 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
                                         "] is outside the grid");
         model.pinned[static_cast<std::size_t>(row * model.grid->columns + column)] = 1;
     }
-    select_springs(cloth, model);
+    for (std::uint32_t i = 0; i < model.pinned.size(); ++i)
+        if (model.pinned[i])
+            model.pins.push_back(i);
+    model.enabled = {cloth.enable_structural, cloth.enable_shearing, cloth.enable_bending};
 
     Vec3 g = stepping.gravity;
     for (const Vec3& a : stepping.accelerations)

@@ -2,6 +2,7 @@
 // all derived constants computed once (docs/simulation.md). A parameter change makes a new model around the same grid.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -33,10 +34,13 @@ template <class Real>
 struct Model {
     std::shared_ptr<const Grid<Real>> grid;
     std::vector<std::uint8_t> pinned; ///< 1 for masses that no stage moves
+    std::vector<std::uint32_t> pins;  ///< those masses, ascending, each once
 
-    // The springs that pull, in spring order: only those of enabled kinds, so that a kind that is off costs nothing.
-    std::vector<std::uint32_t> spring_a, spring_b;
-    AlignedVector<Real> spring_rest, spring_k;
+    std::array<bool, spring_kinds> enabled{}; ///< which kinds of springs pull
+    std::array<Real, spring_kinds> k{};       ///< N/m, by kind
+
+    Real spring_constant(std::size_t s) const { return k[static_cast<std::size_t>(spring_stencil[s].kind)]; }
+    bool pulls(std::size_t s) const { return enabled[static_cast<std::size_t>(spring_stencil[s].kind)]; }
 
     Real mass = 0;                           ///< kg per point
     Real gx = 0, gy = 0, gz = 0;             ///< m/s², gravity and all further accelerations

@@ -42,16 +42,17 @@ void append(std::vector<std::byte>& bytes, const T* values, std::size_t count) {
 template <class Real>
 class SimulationOf final : public Simulation {
 public:
-    explicit SimulationOf(const Description& description)
+    SimulationOf(const Description& description, const Execution& execution)
         : Simulation(description),
           model_(make_model<Real>(description, std::make_shared<const Grid<Real>>(make_grid<Real>(description)))),
-          state_(initial_state(model_)), work_(make_workspace(model_)) {}
+          state_(initial_state<Real>(description)), work_(make_workspace(model_, execution)) {}
 
     void change(const Description& description) override {
         if (!can_change_live(description_, description))
             throw std::invalid_argument("this change of grid, start or precision needs a restart");
         model_ = make_model<Real>(description, model_.grid);
         description_ = description;
+        prepare(model_, work_);
         if (substep_ >= model_.substeps) { // the frame under way has fewer steps now and is over
             substep_ = 0;
             ++frame_;
@@ -92,6 +93,16 @@ public:
         s.dt = model_.dt;
         s.diagnostics = diagnose();
         s.counts = counts_;
+    }
+
+    InstructionSet instructions() const override { return work_.instructions; }
+    int threads() const override { return work_.choice.threads(); }
+    std::size_t memory_bytes() const override {
+        std::size_t bytes = state_.position.bytes() + state_.previous.bytes() + sim::memory_bytes(work_) +
+                            model_.pinned.capacity() + model_.pins.capacity() * sizeof(model_.pins[0]);
+        for (const AlignedVector<Real>& rest : model_.grid->rest)
+            bytes += rest.capacity() * sizeof(Real);
+        return bytes;
     }
 
     void time_stages(bool on) override {
@@ -170,10 +181,10 @@ private:
 
 } // namespace
 
-std::unique_ptr<Simulation> Simulation::create(const Description& description) {
+std::unique_ptr<Simulation> Simulation::create(const Description& description, const Execution& execution) {
     if (description.stepping.precision == Precision::double_precision)
-        return std::make_unique<SimulationOf<double>>(description);
-    return std::make_unique<SimulationOf<float>>(description);
+        return std::make_unique<SimulationOf<double>>(description, execution);
+    return std::make_unique<SimulationOf<float>>(description, execution);
 }
 
 void Simulation::step_frame() {

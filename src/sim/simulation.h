@@ -9,6 +9,7 @@
 
 #include "sim/description.h"
 #include "sim/diagnostics.h"
+#include "sim/execution.h"
 #include "sim/snapshot.h"
 #include "sim/step.h"
 
@@ -17,8 +18,8 @@ namespace clothlab::sim {
 class Simulation {
 public:
     /// Starts a run at time 0. Throws std::invalid_argument for a description without meaning (see make_grid,
-    /// make_model).
-    static std::unique_ptr<Simulation> create(const Description& description);
+    /// make_model) and for an execution that this machine cannot give.
+    static std::unique_ptr<Simulation> create(const Description& description, const Execution& execution = {});
     virtual ~Simulation() = default;
 
     /// Takes over another description between two steps; positions, velocities and time stay. Throws
@@ -44,6 +45,12 @@ public:
     virtual std::uint64_t hash() const = 0;
     /// Fills a snapshot, reusing its memory.
     virtual void capture(Snapshot& snapshot) const = 0;
+
+    /// The instruction set in use, and the threads that the steps use now.
+    virtual InstructionSet instructions() const = 0;
+    virtual int threads() const = 0;
+    /// All memory that the run holds, in bytes: grid, model, state and workspace.
+    virtual std::size_t memory_bytes() const = 0;
 
     /// Measures wall time per stage from now on; the sums start at zero.
     virtual void time_stages(bool on) = 0;

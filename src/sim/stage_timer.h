@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "sim/state.h"
+#include "sim/workspace.h"
 
 namespace clothlab::sim {
 

@@ -3,6 +3,7 @@
 
 #include "sim/model.h"
 #include "sim/state.h"
+#include "sim/workspace.h"
 
 namespace clothlab::sim {
 
@@ -13,21 +14,21 @@ struct StepCounts {
     std::size_t shortened_springs = 0; ///< springs that the stretch limit shortened
 };
 
-/// A state of masses at rest at the grid's start positions.
+/// A state of masses at rest at the start positions.
 template <class Real>
-State<Real> initial_state(const Model<Real>& model);
+State<Real> initial_state(const Description& description);
 
-/// Scratch memory for steps on the model's grid.
+/// Scratch memory, kernels and threads for steps of the model.
 template <class Real>
-Workspace<Real> make_workspace(const Model<Real>& model);
+Workspace<Real> make_workspace(const Model<Real>& model, const Execution& execution = {});
 
 /// Advances the state by model.dt.
 template <class Real>
 StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);
 
 #define CLOTHLAB_DECLARE(Real)                                                                                         \
-    extern template State<Real> initial_state<Real>(const Model<Real>&);                                               \
-    extern template Workspace<Real> make_workspace<Real>(const Model<Real>&);                                          \
+    extern template State<Real> initial_state<Real>(const Description&);                                               \
+    extern template Workspace<Real> make_workspace<Real>(const Model<Real>&, const Execution&);                        \
     extern template StepCounts step<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);
 CLOTHLAB_DECLARE(float)
 CLOTHLAB_DECLARE(double)

@@ -41,7 +41,7 @@ TEST_CASE("After the sphere stage no free point is inside the sphere, and points
     Sheet<double> sheet = sheet_with(sim::Sphere{centre, radius, 0});
     scatter(sheet, 1);
     const sim::State<double> before = sheet.state;
-    const std::size_t contacts = sim::resolve_colliders(sheet.model, sheet.state);
+    const std::size_t contacts = sim::resolve_colliders(sheet.model, sheet.state, sheet.work);
     std::size_t inside = 0;
     for (std::size_t i = 0; i < sheet.points(); ++i) {
         const sim::Vec3 was = Sheet<double>::coordinates(before.position, i), is = sheet.position(i);
@@ -65,10 +65,10 @@ TEST_CASE("A point at the very centre of a sphere has no direction and stays") {
     for (std::size_t i = 0; i < sheet.points(); ++i)
         sheet.place(i, {0.3, 5, 0.1});
     sheet.put(sheet.state.position, 3, centre);
-    REQUIRE(sim::resolve_colliders(sheet.model, sheet.state) == 0);
+    REQUIRE(sim::resolve_colliders(sheet.model, sheet.state, sheet.work) == 0);
     REQUIRE(sheet.position(3) == centre);
     sheet.put(sheet.state.position, 3, {centre.x, centre.y + 1e-12, centre.z});
-    REQUIRE(sim::resolve_colliders(sheet.model, sheet.state) == 1);
+    REQUIRE(sim::resolve_colliders(sheet.model, sheet.state, sheet.work) == 1);
     REQUIRE_THAT(sheet.position(3).y, WithinRel(centre.y + radius, 1e-12));
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("After the plane stage no point that started above is below, and none 
     scatter(sheet, 2);
     const auto height = [&](sim::Vec3 x) { return dot(minus(x, point), normal) / norm(normal); };
     const sim::State<double> before = sheet.state;
-    const std::size_t contacts = sim::resolve_colliders(sheet.model, sheet.state);
+    const std::size_t contacts = sim::resolve_colliders(sheet.model, sheet.state, sheet.work);
     std::size_t down = 0, up = 0;
     for (std::size_t i = 0; i < sheet.points(); ++i) {
         const sim::Vec3 was = Sheet<double>::coordinates(before.position, i), is = sheet.position(i);
@@ -101,7 +101,7 @@ TEST_CASE("A point that comes to lie on the plane is in contact, and one that st
         Sheet<double> sheet = sheet_with(sim::Plane{{0, 0, 0}, {0, 1, 0}, 0});
         sheet.put(sheet.state.previous, 0, {0, from, 0});
         sheet.put(sheet.state.position, 0, {0, to, 0});
-        sim::resolve_colliders(sheet.model, sheet.state);
+        sim::resolve_colliders(sheet.model, sheet.state, sheet.work);
         return sheet.position(0).y;
     };
     REQUIRE_THAT(after(0.5, 0), WithinRel(1e-4, 1e-9));
@@ -116,8 +116,8 @@ TEST_CASE("A plane's normal counts by its direction, not by its length") {
     Sheet<double> fourfold = sheet_with(sim::Plane{{0, 0, 0}, {0, 4, 0}, 0.25});
     scatter(once, 3);
     scatter(fourfold, 3);
-    REQUIRE(sim::resolve_colliders(once.model, once.state) > 0);
-    sim::resolve_colliders(fourfold.model, fourfold.state);
+    REQUIRE(sim::resolve_colliders(once.model, once.state, once.work) > 0);
+    sim::resolve_colliders(fourfold.model, fourfold.state, fourfold.work);
     REQUIRE(once.state == fourfold.state);
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("With friction 1 a point in contact stays where it was, and with less 
         const sim::Collider plane = sim::Plane{{0, 0.05, 0}, {0, 1, 0}, friction};
         Sheet<double> sheet = sheet_with(on_sphere ? sphere : plane);
         scatter(sheet, 4);
-        return std::pair{sim::resolve_colliders(sheet.model, sheet.state), sheet};
+        return std::pair{sim::resolve_colliders(sheet.model, sheet.state, sheet.work), std::move(sheet)};
     };
     const auto [contacts, sliding] = run(0);
     const auto [same, creeping] = run(0.75);
@@ -176,7 +176,7 @@ TEST_CASE("Colliders act in scene order") {
         Sheet<double> sheet(description);
         sheet.put(sheet.state.previous, 0, {0, 0.6, 0});
         sheet.put(sheet.state.position, 0, {0, 0, 0});
-        return std::pair{sim::resolve_colliders(sheet.model, sheet.state), sheet.position(0).y};
+        return std::pair{sim::resolve_colliders(sheet.model, sheet.state, sheet.work), sheet.position(0).y};
     };
     REQUIRE(height(high, low) == std::pair{std::size_t{1}, 0.4 + 1e-4}); // out of the first, it misses the second
     const auto [contacts, y] = height(low, high);

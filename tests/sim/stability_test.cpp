@@ -25,13 +25,12 @@ double stiffest_mode(const Sheet<double>& sheet, double ks) {
     double eigenvalue = 0;
     for (int i = 0; i < 3000; ++i) {
         std::fill(kv.begin(), kv.end(), sim::Vec3{});
-        for (std::size_t s = 0; s < sheet.model.spring_a.size(); ++s) {
-            const std::size_t a = sheet.model.spring_a[s], b = sheet.model.spring_b[s];
+        sheet.for_each_pulling_spring([&](std::uint32_t a, std::uint32_t b, std::size_t s) {
             const sim::Vec3 d = minus(sheet.position(b), sheet.position(a));
-            const double pull = sheet.model.spring_k[s] / ks * dot(d, minus(v[b], v[a])) / dot(d, d);
+            const double pull = sheet.model.spring_constant(s) / ks * dot(d, minus(v[b], v[a])) / dot(d, d);
             kv[a] = {kv[a].x - pull * d.x, kv[a].y - pull * d.y, kv[a].z - pull * d.z};
             kv[b] = {kv[b].x + pull * d.x, kv[b].y + pull * d.y, kv[b].z + pull * d.z};
-        }
+        });
         double square = 0;
         for (const sim::Vec3& x : kv)
             square += dot(x, x);
@@ -67,8 +66,7 @@ Sheet<double> sheet_near_limit(double share, double damping_percent, bool pinned
 double largest_displacement(const Sheet<double>& sheet) {
     double largest = 0;
     for (std::size_t i = 0; i < sheet.points(); ++i)
-        largest =
-            std::max(largest, norm(minus(sheet.position(i), Sheet<double>::coordinates(sheet.model.grid->start, i))));
+        largest = std::max(largest, norm(minus(sheet.position(i), Sheet<double>::coordinates(sheet.start, i))));
     return largest;
 }
 
@@ -121,7 +119,7 @@ TEST_CASE("A cloth a hundred times its own size has diverged, one that is large 
     Sheet<double> sheet(bare_cloth(5, 5));
     const auto status = [&](double scale, double fallen) {
         for (std::size_t i = 0; i < sheet.points(); ++i) {
-            const sim::Vec3 x = Sheet<double>::coordinates(sheet.model.grid->start, i);
+            const sim::Vec3 x = Sheet<double>::coordinates(sheet.start, i);
             sheet.place(i, {scale * x.x, x.y - fallen, scale * x.z});
         }
         return sim::diagnose(sheet.model, sheet.state).status;

@@ -15,12 +15,15 @@ template <class Real>
 struct Sheet {
     sim::Model<Real> model;
     sim::State<Real> state;
+    sim::Vec3Array<Real> start;
     sim::Workspace<Real> work;
 
     explicit Sheet(const sim::Description& description)
         : model(sim::make_model<Real>(description,
                                       std::make_shared<const sim::Grid<Real>>(sim::make_grid<Real>(description)))),
-          state(sim::initial_state(model)), work(sim::make_workspace(model)) {}
+          state(sim::initial_state<Real>(description)), start(state.position), work(sim::make_workspace(model)) {
+        work.force.resize(points());
+    }
 
     sim::StepCounts step() { return sim::step(model, state, work); }
     std::size_t points() const { return state.position.size(); }
@@ -39,6 +42,15 @@ struct Sheet {
     }
     static sim::Vec3 coordinates(const sim::Vec3Array<Real>& array, std::size_t i) {
         return {static_cast<double>(array.x[i]), static_cast<double>(array.y[i]), static_cast<double>(array.z[i])};
+    }
+    /// Calls visit(a, b, s) for every spring that pulls, in order.
+    template <class Visit>
+    void for_each_pulling_spring(Visit visit) const {
+        sim::for_each_spring(model.grid->columns, model.grid->rows,
+                             [&](std::uint32_t a, std::uint32_t b, std::size_t s) {
+                                 if (model.pulls(s))
+                                     visit(a, b, s);
+                             });
     }
     void still_forces() {
         for (auto* axis : {&work.force.x, &work.force.y, &work.force.z})

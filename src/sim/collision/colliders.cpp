@@ -1,6 +1,8 @@
 #include "sim/collision/colliders.h"
 
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace clothlab::sim {
 namespace {
@@ -40,10 +42,29 @@ bool collide(const PlaneModel<Real>& s, State<Real>& state, std::size_t i) {
     return true;
 }
 
+template <class Real>
+std::size_t resolve_by_kernels(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    const int ranges = for_ranges(model, work, [&](int index, std::size_t begin, std::size_t end) {
+        const ContactArguments<Real> arguments{state.position.axes(), std::as_const(state.previous).axes(), begin, end,
+                                               model.pins.empty() ? nullptr : model.pinned.data()};
+        std::size_t contacts = 0;
+        for (const auto& collider : model.colliders) {
+            if (const auto* sphere = std::get_if<SphereModel<Real>>(&collider))
+                contacts += work.kernels->sphere(arguments, *sphere);
+            else
+                contacts += work.kernels->plane(arguments, std::get<PlaneModel<Real>>(collider));
+        }
+        work.counts[static_cast<std::size_t>(index)] = contacts;
+    });
+    return std::accumulate(work.counts.begin(), work.counts.begin() + ranges, std::size_t{0});
+}
+
 } // namespace
 
 template <class Real>
-std::size_t resolve_colliders(const Model<Real>& model, State<Real>& state) {
+std::size_t resolve_colliders(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    if (work.kernels)
+        return resolve_by_kernels(model, state, work);
     std::size_t contacts = 0;
     // Points do not depend on each other here, so going through the colliders outside gives the same bits as inside.
     for (const auto& collider : model.colliders) {
@@ -58,7 +79,7 @@ std::size_t resolve_colliders(const Model<Real>& model, State<Real>& state) {
     return contacts;
 }
 
-template std::size_t resolve_colliders<float>(const Model<float>&, State<float>&);
-template std::size_t resolve_colliders<double>(const Model<double>&, State<double>&);
+template std::size_t resolve_colliders<float>(const Model<float>&, State<float>&, Workspace<float>&);
+template std::size_t resolve_colliders<double>(const Model<double>&, State<double>&, Workspace<double>&);
 
 } // namespace clothlab::sim

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "sim/collision/active_points.h"
+#include "sim/collision/contact_cells.h"
 #include "sim/random.h"
 
 namespace clothlab::sim {
@@ -21,29 +23,28 @@ std::uint64_t slot_of(const Vec3Array<Real>& cell, std::size_t i) {
 }
 
 template <class Real>
-void fill_cells(const Model<Real>& model, const Vec3Array<Real>& x, Workspace<Real>& work) {
-    const std::uint64_t mask = work.cells.first.size() - 1;
-    std::fill(work.cells.first.begin(), work.cells.first.end(), -1);
+void fill_cells(const Model<Real>& model, const Vec3Array<Real>& x, SelfCollisionWork<Real>& work) {
+    const std::uint64_t mask = work.lists.first.size() - 1;
+    std::fill(work.lists.first.begin(), work.lists.first.end(), -1);
     // From the last point to the first, so that each chain is in index order.
     for (std::size_t i = x.size(); i-- > 0;) {
         // Adding zero turns -0 into 0: they are the same cell but not the same bits.
         work.cell.x[i] = std::floor(x.x[i] / model.cell_x) + Real(0);
         work.cell.y[i] = std::floor(x.y[i] / model.cell_y) + Real(0);
         work.cell.z[i] = std::floor(x.z[i] / model.cell_z) + Real(0);
-        std::int32_t& first = work.cells.first[slot_of(work.cell, i) & mask];
-        work.cells.next[i] = first;
+        std::int32_t& first = work.lists.first[slot_of(work.cell, i) & mask];
+        work.lists.next[i] = first;
         first = static_cast<std::int32_t>(i);
     }
 }
 
-} // namespace
-
+/// The rule as it is written, all points in order.
 template <class Real>
-std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+std::size_t resolve_plainly(const Model<Real>& model, State<Real>& state, SelfCollisionWork<Real>& work) {
     Vec3Array<Real>& x = state.position;
     fill_cells(model, x, work);
     const Vec3Array<Real>& cell = work.cell;
-    const std::uint64_t mask = work.cells.first.size() - 1;
+    const std::uint64_t mask = work.lists.first.size() - 1;
     const Real apart = Real(2) * model.thickness;
     std::size_t pairs = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -51,8 +52,8 @@ std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state,
             continue;
         Real sum_x = 0, sum_y = 0, sum_z = 0;
         int count = 0;
-        for (std::int32_t other = work.cells.first[slot_of(cell, i) & mask]; other >= 0;
-             other = work.cells.next[static_cast<std::size_t>(other)]) {
+        for (std::int32_t other = work.lists.first[slot_of(cell, i) & mask]; other >= 0;
+             other = work.lists.next[static_cast<std::size_t>(other)]) {
             const auto q = static_cast<std::size_t>(other);
             // A slot may hold several cells; a pair counts only if the cells are the same, and so only once.
             if (q == i || !(cell.x[q] == cell.x[i] && cell.y[q] == cell.y[i] && cell.z[q] == cell.z[i]))
@@ -78,7 +79,45 @@ std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state,
     return pairs;
 }
 
+} // namespace
+
+template <class Real>
+std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    if (!(model.thickness > 0))
+        return 0; // no two points are nearer than that
+    if (!work.kernels)
+        return resolve_plainly(model, state, work.self_collision);
+    find_active_points(model, state.position, work);
+    return work.self_collision.active.empty() ? 0 : resolve_in_cells(model, state, work);
+}
+
+template <class Real>
+void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work) {
+    const std::size_t points = model.grid->points();
+    SelfCollisionWork<Real>& s = work.self_collision;
+    s.anchored = false;
+    s.give_up = 0;
+    if (!work.kernels) {
+        s.cell.resize(points);
+        s.lists.first.resize(std::bit_ceil(points));
+        s.lists.next.resize(points);
+        return;
+    }
+    s.anchor.resize(points);
+    s.pairs.reserve(points);
+    s.near.resize(points);
+    s.active.reserve(points);
+    s.bucket.resize(points);
+    s.order.resize(points);
+    s.bucket_end.resize(std::max(std::bit_ceil(points), most_cells(points) + 1));
+    const std::size_t with_spare = points + CacheLineAllocator<Real>::spare / sizeof(Real);
+    s.sorted.resize(with_spare);
+    s.sorted_cells.resize(with_spare);
+}
+
 template std::size_t resolve_self_collision<float>(const Model<float>&, State<float>&, Workspace<float>&);
 template std::size_t resolve_self_collision<double>(const Model<double>&, State<double>&, Workspace<double>&);
+template void prepare_self_collision<float>(const Model<float>&, Workspace<float>&);
+template void prepare_self_collision<double>(const Model<double>&, Workspace<double>&);
 
 } // namespace clothlab::sim

@@ -4,6 +4,7 @@
 
 #include "sim/model.h"
 #include "sim/state.h"
+#include "sim/workspace.h"
 
 namespace clothlab::sim {
 
@@ -12,7 +13,13 @@ namespace clothlab::sim {
 template <class Real>
 std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);
 
+/// Sizes the stage's memory for a model; part of prepare().
+template <class Real>
+void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work);
+
 extern template std::size_t resolve_self_collision<float>(const Model<float>&, State<float>&, Workspace<float>&);
 extern template std::size_t resolve_self_collision<double>(const Model<double>&, State<double>&, Workspace<double>&);
+extern template void prepare_self_collision<float>(const Model<float>&, Workspace<float>&);
+extern template void prepare_self_collision<double>(const Model<double>&, Workspace<double>&);
 
 } // namespace clothlab::sim

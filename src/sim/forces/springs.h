@@ -3,6 +3,7 @@
 
 #include "sim/model.h"
 #include "sim/state.h"
+#include "sim/workspace.h"
 
 namespace clothlab::sim {
 
@@ -15,9 +16,23 @@ void add_spring_forces(const Model<Real>& model, const Vec3Array<Real>& position
 template <class Real>
 double spring_energy(const Model<Real>& model, const Vec3Array<Real>& position);
 
+/// Whether sweep_springs can do what set_gravity_forces and add_spring_forces do.
+template <class Real>
+bool can_sweep(const Model<Real>& model, const Workspace<Real>& work);
+
+/// Gravity and springs by the kernels, to the same bits: writes the forces to `out`, or, with one of the Verlet sinks,
+/// moves the points of `position`, whose previous positions are in `out`, and writes where they go to `out`, pinned or
+/// not.
+template <class Real>
+void sweep_springs(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work, SweepSink sink,
+                   Vec3Array<Real>& out);
+
 #define CLOTHLAB_DECLARE(Real)                                                                                         \
     extern template void add_spring_forces<Real>(const Model<Real>&, const Vec3Array<Real>&, Vec3Array<Real>&);        \
-    extern template double spring_energy<Real>(const Model<Real>&, const Vec3Array<Real>&);
+    extern template double spring_energy<Real>(const Model<Real>&, const Vec3Array<Real>&);                            \
+    extern template bool can_sweep<Real>(const Model<Real>&, const Workspace<Real>&);                                  \
+    extern template void sweep_springs<Real>(const Model<Real>&, const Vec3Array<Real>&, Workspace<Real>&, SweepSink,  \
+                                             Vec3Array<Real>&);
 CLOTHLAB_DECLARE(float)
 CLOTHLAB_DECLARE(double)
 #undef CLOTHLAB_DECLARE

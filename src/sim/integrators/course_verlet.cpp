@@ -2,7 +2,9 @@
 //     x(t + dt) = x + (1 - d) (x - x(t - dt)) + a dt²
 // Its undamped form is L. Verlet, Physical Review 159 (1967), equation 4.
 #include <type_traits>
+#include <utility>
 
+#include "sim/forces/springs.h"
 #include "sim/forces/wind.h"
 #include "sim/integrators/integrator.h"
 #include "sim/stage_timer.h"
@@ -42,10 +44,35 @@ void move(const Model<Real>& model, State<Real>& state, const Vec3Array<Real>& f
     }
 }
 
+/// Forces and move in one sweep: each point's next position takes the place of its previous one, and then the two
+/// arrays change places.
+template <class Real>
+void sweep(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    const StageTimer timer(work, Stage::forces);
+    Vec3Array<Real>&x = state.position, &p = state.previous;
+    for (std::size_t k = 0; k < model.pins.size(); ++k) {
+        const std::uint32_t i = model.pins[k];
+        work.pin_previous[k] = {p.x[i], p.y[i], p.z[i]};
+    }
+    sweep_springs(model, x, work, model.keep == 1 ? SweepSink::verlet : SweepSink::verlet_damped, p);
+    std::swap(x, p);
+    for (std::size_t k = 0; k < model.pins.size(); ++k) {
+        const std::uint32_t i = model.pins[k];
+        x.x[i] = p.x[i];
+        x.y[i] = p.y[i];
+        x.z[i] = p.z[i];
+        p.x[i] = work.pin_previous[k][0];
+        p.y[i] = work.pin_previous[k][1];
+        p.z[i] = work.pin_previous[k][2];
+    }
+}
+
 } // namespace
 
 template <class Real>
 void course_verlet(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    if (model.wind.kind == WindKind::none && can_sweep(model, work))
+        return sweep(model, state, work);
     evaluate_forces(model, state, work);
     const StageTimer timer(work, Stage::integrate);
     if (model.wind.kind == WindKind::course)

@@ -19,8 +19,13 @@ std::span<const IntegratorInfo> integrators() {
 template <class Real>
 void evaluate_forces(const Model<Real>& model, const State<Real>& state, Workspace<Real>& work) {
     const StageTimer timer(work, Stage::forces);
-    set_gravity_forces(model, work.force);
-    add_spring_forces(model, state.position, work.force);
+    work.force.resize(model.grid->points());
+    if (can_sweep(model, work)) {
+        sweep_springs(model, state.position, work, SweepSink::force, work.force);
+    } else {
+        set_gravity_forces(model, work.force);
+        add_spring_forces(model, state.position, work.force);
+    }
     if (model.wind.kind == WindKind::physical)
         add_wind_forces(model, state, work.force);
 }

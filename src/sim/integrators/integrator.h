@@ -8,6 +8,7 @@
 
 #include "sim/model.h"
 #include "sim/state.h"
+#include "sim/workspace.h"
 
 namespace clothlab::sim {
 

@@ -1,0 +1,82 @@
+#include "sim/collision/contact_cells.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace clothlab::sim {
+namespace {
+
+/// Counting sort of the active points by bucket: `order`, and where each bucket ends. Points of a bucket stay
+/// ascending.
+template <class Real>
+void sort_by_bucket(SelfCollisionWork<Real>& work, std::size_t buckets) {
+    const std::size_t count = work.active.size();
+    std::fill_n(work.bucket_end.begin(), buckets, 0u);
+    for (std::size_t k = 0; k < count; ++k)
+        ++work.bucket_end[work.bucket[k]];
+    std::uint32_t begin = 0;
+    for (std::size_t b = 0; b < buckets; ++b)
+        begin += std::exchange(work.bucket_end[b], begin);
+    // What is now each bucket's beginning moves on to its end.
+    for (std::size_t k = 0; k < count; ++k)
+        work.order[work.bucket_end[work.bucket[k]]++] = work.active[k];
+}
+
+/// Some threads are only worth waking for so many points.
+constexpr std::size_t points_for_threads = 256;
+
+} // namespace
+
+template <class Real>
+std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    SelfCollisionWork<Real>& s = work.self_collision;
+    const std::size_t count = s.active.size();
+    const std::size_t buckets = std::bit_ceil(count);
+    const CellArguments<Real> cells{
+        std::as_const(state.position).axes(),    s.active.data(), count, {model.cell_x, model.cell_y, model.cell_z},
+        static_cast<std::uint32_t>(buckets - 1), s.bucket.data()};
+    work.kernels->buckets(cells);
+    sort_by_bucket(s, buckets);
+
+    const Axes<Real> x = state.position.axes(), sorted = s.sorted.axes();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t k = 0; k < count; ++k)
+            sorted[axis][k] = x[axis][s.order[k]];
+    const std::size_t padded = std::min(count + work.kernels->lanes, s.sorted.size());
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        std::fill(sorted[axis] + count, sorted[axis] + padded, std::numeric_limits<Real>::quiet_NaN());
+    work.kernels->cells(cells, std::as_const(s.sorted).axes(), padded, s.sorted_cells.axes());
+
+    const CellPassArguments<Real> all{x,
+                                      sorted,
+                                      std::as_const(s.sorted_cells).axes(),
+                                      s.order.data(),
+                                      s.bucket_end.data(),
+                                      0,
+                                      buckets,
+                                      model.pinned.data(),
+                                      Real(2) * model.thickness,
+                                      static_cast<Real>(model.substeps)};
+    const int threads = work.pool ? work.choice.threads() : 1;
+    if (threads == 1 || count < points_for_threads)
+        return work.kernels->cell_pass(all);
+    const auto pass = [&](int index) {
+        const auto cut = [&](int i) {
+            return buckets * static_cast<std::size_t>(i) / static_cast<std::size_t>(threads);
+        };
+        CellPassArguments<Real> part = all;
+        part.first_bucket = cut(index);
+        part.last_bucket = cut(index + 1);
+        work.counts[static_cast<std::size_t>(index)] = work.kernels->cell_pass(part);
+    };
+    work.pool->run(threads, pass);
+    return std::accumulate(work.counts.begin(), work.counts.begin() + threads, std::size_t{0});
+}
+
+template std::size_t resolve_in_cells<float>(const Model<float>&, State<float>&, Workspace<float>&);
+template std::size_t resolve_in_cells<double>(const Model<double>&, State<double>&, Workspace<double>&);
+
+} // namespace clothlab::sim

@@ -1,0 +1,19 @@
+// The course's self-collision rule among the points that it may concern, cell by cell.
+#pragma once
+
+#include "sim/model.h"
+#include "sim/state.h"
+#include "sim/workspace.h"
+
+namespace clothlab::sim {
+
+/// Applies the rule to the points of work.self_collision.active, by the kernels, to the bits of the plain loops. Points
+/// of one cell push only each other, and cells do not change during the stage: so cells may be gone through in any
+/// order, or at the same time, as long as the points within each keep theirs. Returns the number of pushes.
+template <class Real>
+std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);
+
+extern template std::size_t resolve_in_cells<float>(const Model<float>&, State<float>&, Workspace<float>&);
+extern template std::size_t resolve_in_cells<double>(const Model<double>&, State<double>&, Workspace<double>&);
+
+} // namespace clothlab::sim

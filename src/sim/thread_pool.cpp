@@ -1,0 +1,69 @@
+#include "sim/thread_pool.h"
+
+#include <algorithm>
+
+#include <hwy/cache_control.h>
+
+namespace clothlab::sim {
+namespace {
+
+constexpr std::uint64_t count_bits = 16, count_mask = (1u << count_bits) - 1, quit = count_mask;
+/// Some ten microseconds: longer than the gap between two stages, shorter than what a sleeper would save.
+constexpr int spins = 400;
+
+/// Waits until the value is another than `old`; returns it.
+template <class T>
+T await_change(const std::atomic<T>& value, T old) {
+    for (int i = 0; i < spins; ++i) {
+        if (const T now = value.load(std::memory_order_acquire); now != old)
+            return now;
+        hwy::Pause();
+    }
+    value.wait(old, std::memory_order_acquire);
+    return value.load(std::memory_order_acquire);
+}
+
+} // namespace
+
+ThreadPool::ThreadPool(int threads) {
+    for (int i = 1; i < std::min(threads, static_cast<int>(count_mask) - 1); ++i)
+        workers_.emplace_back([this, i] { work(i); });
+}
+
+ThreadPool::~ThreadPool() {
+    ticket_.fetch_or(quit);
+    ticket_.notify_all();
+    for (std::thread& worker : workers_)
+        worker.join();
+}
+
+void ThreadPool::start(int count, Call call, const void* context) {
+    call_ = call;
+    context_ = context;
+    unfinished_.store(count - 1, std::memory_order_relaxed);
+    const std::uint64_t number = (ticket_.load(std::memory_order_relaxed) >> count_bits) + 1;
+    ticket_.store((number << count_bits) | static_cast<std::uint64_t>(count));
+    ticket_.notify_all();
+}
+
+void ThreadPool::finish() {
+    for (int left = unfinished_.load(std::memory_order_acquire); left != 0;)
+        left = await_change(unfinished_, left);
+}
+
+void ThreadPool::work(int index) {
+    for (std::uint64_t seen = 0;;) {
+        seen = await_change(ticket_, seen);
+        const std::uint64_t count = seen & count_mask;
+        if (count == quit)
+            return;
+        // A ticket that is not for this thread may be replaced by the next at any time: nothing else may be read then.
+        if (static_cast<std::uint64_t>(index) >= count)
+            continue;
+        call_(context_, index);
+        if (unfinished_.fetch_sub(1, std::memory_order_acq_rel) == 1)
+            unfinished_.notify_one();
+    }
+}
+
+} // namespace clothlab::sim

@@ -1,0 +1,54 @@
+#include "sim/workspace.h"
+
+#include "sim/collision/self_collision.h"
+
+namespace clothlab::sim {
+namespace {
+
+template <class T, class Allocator>
+std::size_t bytes_of(const std::vector<T, Allocator>& v) {
+    return v.capacity() * sizeof(T);
+}
+
+} // namespace
+
+template <class Real>
+void prepare(const Model<Real>& model, Workspace<Real>& work) {
+    const std::size_t points = model.grid->points();
+    const auto threads = static_cast<std::size_t>(work.pool ? work.pool->threads() : 1);
+    if (!work.kernels || model.wind.kind != WindKind::none)
+        work.force.resize(points);
+    if (work.kernels) {
+        work.sweep.resize(threads);
+        for (AlignedVector<Real>& scratch : work.sweep)
+            scratch.resize(sweep_scratch(static_cast<std::size_t>(model.grid->columns)));
+        work.pin_previous.resize(model.pins.size());
+        work.proximity.resize(threads);
+        work.counts.resize(threads);
+    }
+    if (model.rules.self_collision != SelfCollisionRule::none)
+        prepare_self_collision(model, work);
+    work.choice.restart();
+}
+
+template <class Real>
+std::size_t memory_bytes(const Workspace<Real>& work) {
+    const SelfCollisionWork<Real>& s = work.self_collision;
+    std::size_t bytes = work.force.bytes() + bytes_of(work.pin_previous) + bytes_of(work.proximity) +
+                        bytes_of(work.counts) + s.cell.bytes() + bytes_of(s.lists.first) + bytes_of(s.lists.next) +
+                        s.anchor.bytes() + bytes_of(s.pairs) + bytes_of(s.near) + bytes_of(s.active) +
+                        bytes_of(s.bucket) + bytes_of(s.order) + bytes_of(s.bucket_end) + s.sorted.bytes() +
+                        s.sorted_cells.bytes();
+    for (const AlignedVector<Real>& scratch : work.sweep)
+        bytes += bytes_of(scratch);
+    return bytes;
+}
+
+#define CLOTHLAB_DEFINE(Real)                                                                                          \
+    template void prepare<Real>(const Model<Real>&, Workspace<Real>&);                                                 \
+    template std::size_t memory_bytes<Real>(const Workspace<Real>&);
+CLOTHLAB_DEFINE(float)
+CLOTHLAB_DEFINE(double)
+#undef CLOTHLAB_DEFINE
+
+} // namespace clothlab::sim

@@ -1,0 +1,76 @@
+// What a step needs besides model and state: scratch memory, kernels and threads. Nothing in it is part of the state: a
+// step reads only what it wrote itself, or what it can prove to be still true.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "sim/collision/self_collision_work.h"
+#include "sim/execution.h"
+#include "sim/kernels/kernels.h"
+#include "sim/model.h"
+#include "sim/state.h"
+#include "sim/thread_choice.h"
+#include "sim/thread_pool.h"
+
+namespace clothlab::sim {
+
+template <class Real>
+struct Workspace {
+    InstructionSet instructions = InstructionSet::scalar;
+    const Kernels<Real>* kernels = nullptr; ///< null: plain loops
+    std::unique_ptr<ThreadPool> pool;
+    ThreadChoice choice;
+
+    Vec3Array<Real> force;                         ///< N; empty until something needs it
+    std::vector<AlignedVector<Real>> sweep;        ///< per thread
+    std::vector<std::array<Real, 3>> pin_previous; ///< m, of the pins, while the points are moved
+    bool limit_was_idle = false;                   ///< the last sweep shortened nothing
+    SelfCollisionWork<Real> self_collision;
+    std::vector<ProximityArguments<Real>> proximity; ///< per thread
+    std::vector<std::size_t> counts;                 ///< per thread
+
+    StageSeconds seconds{}; ///< summed up over all steps when timed
+    bool timed = false;
+};
+
+/// Sizes the memory for steps of a model, so that they allocate none. To be called again after a change of the model.
+template <class Real>
+void prepare(const Model<Real>& model, Workspace<Real>& work);
+
+/// All memory that a workspace holds.
+template <class Real>
+std::size_t memory_bytes(const Workspace<Real>& work);
+
+/// Calls task(index, begin, end) for ranges that cover all points, on as many threads as the steps use now. Ranges
+/// begin at multiples of sweep_grain and are long enough for a sweep. Returns how many there were.
+template <class Real, class Task>
+int for_ranges(const Model<Real>& model, Workspace<Real>& work, Task task) {
+    const std::size_t points = model.grid->points();
+    const std::size_t least = std::max<std::size_t>(4 * static_cast<std::size_t>(model.grid->columns), 4 * sweep_grain);
+    const std::size_t most = std::max<std::size_t>(points / least, 1);
+    const auto wanted = static_cast<std::size_t>(work.pool ? work.choice.threads() : 1);
+    const std::size_t count = std::min(wanted, most);
+    if (count == 1) {
+        task(0, std::size_t{0}, points);
+        return 1;
+    }
+    const auto from = [&](std::size_t index) {
+        return index == count ? points : points * index / count / sweep_grain * sweep_grain;
+    };
+    const auto range = [&](int index) {
+        task(index, from(static_cast<std::size_t>(index)), from(static_cast<std::size_t>(index) + 1));
+    };
+    work.pool->run(static_cast<int>(count), range);
+    return static_cast<int>(count);
+}
+
+#define CLOTHLAB_DECLARE(Real)                                                                                         \
+    extern template void prepare<Real>(const Model<Real>&, Workspace<Real>&);                                          \
+    extern template std::size_t memory_bytes<Real>(const Workspace<Real>&);
+CLOTHLAB_DECLARE(float)
+CLOTHLAB_DECLARE(double)
+#undef CLOTHLAB_DECLARE
+
+} // namespace clothlab::sim
