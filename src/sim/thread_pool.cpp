@@ -8,8 +8,9 @@ namespace clothlab::sim {
 namespace {
 
 constexpr std::uint64_t count_bits = 16, count_mask = (1u << count_bits) - 1, quit = count_mask;
-/// Some ten microseconds: longer than the gap between two stages, shorter than what a sleeper would save.
-constexpr int spins = 400;
+/// Some fifty microseconds: as long as the stages that one thread does alone take in a small cloth. A sleeper takes about
+/// as long to wake.
+constexpr int spins = 4000;
 
 /// Waits until the value is another than `old`; returns it.
 template <class T>

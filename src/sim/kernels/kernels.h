@@ -61,11 +61,17 @@ struct SweepArguments {
 };
 
 inline constexpr std::size_t sweep_grain = 64;
-/// How many values of scratch memory a sweep needs.
+/// Values of scratch memory per axis: for a window of unfinished forces, two rows and more, and for a copy of the first
+/// two rows, with two rows before them.
+constexpr std::ptrdiff_t sweep_window(std::size_t columns) {
+    return static_cast<std::ptrdiff_t>((4 * columns + 16 * sweep_grain) / sweep_grain * sweep_grain);
+}
+constexpr std::ptrdiff_t sweep_head(std::size_t columns) {
+    return static_cast<std::ptrdiff_t>(4 * columns + sweep_grain);
+}
+/// How many values of scratch memory a sweep needs, zero at first.
 constexpr std::size_t sweep_scratch(std::size_t columns) {
-    const std::size_t forces = 3 * (6 * columns + 8 * sweep_grain);
-    const std::size_t head = 3 * (4 * columns + 2 * sweep_grain);
-    return forces + head;
+    return 3 * static_cast<std::size_t>(sweep_window(columns) + sweep_head(columns));
 }
 
 template <class Real>
