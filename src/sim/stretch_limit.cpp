@@ -21,15 +21,16 @@ template <class Real>
 std::size_t limit_stretch(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
     const Grid<Real>& grid = *model.grid;
     const LimitArguments<Real> arguments{state.position.axes(), grid.points(), static_cast<std::size_t>(grid.columns),
-                                         rest_lengths(grid), model.pinned.data()};
+                                         rest_lengths(grid), model.pinned.data(),
+                                         may_filter_limit(grid.shortest) && may_filter_limit(grid.longest)};
     std::size_t shortened = 0;
-    if (work.kernels && may_filter_limit(grid.shortest) && may_filter_limit(grid.longest)) {
+    if (work.kernels && arguments.filter) {
         const bool look_first = work.limit_was_idle && work.pool && work.choice.threads() > 1;
         const std::size_t from = look_first ? first_over_limit(model, work, arguments) : 0;
         shortened = work.kernels->limit(arguments, from);
     } else {
         for (std::size_t i = 0; i < arguments.points; ++i)
-            shortened += limit_point(arguments, i);
+            shortened += static_cast<std::size_t>(std::popcount(limit_point(arguments, i)));
     }
     work.limit_was_idle = shortened == 0;
     return shortened;

@@ -2,7 +2,9 @@
 // behavior", Graphics Interface 1995, section 4, as one Gauss-Seidel sweep.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "sim/kernels/kernels.h"
@@ -29,22 +31,33 @@ constexpr bool may_filter_limit(Real rest) {
     return rest > low && rest < high;
 }
 
-/// The sweep at one point: its own springs, in order. Returns how many it shortened.
+/// Sets of a point's own springs: a bit for each entry of the stencil.
+using SpringSet = std::uint32_t;
+inline constexpr SpringSet all_springs = (1u << stencil_size) - 1;
+
+/// The sweep at one point, for the springs of `todo` and those that come after one it shortened. Returns those it
+/// shortened.
 template <class Real>
-inline std::size_t limit_point(const LimitArguments<Real>& arguments, std::size_t i) {
+inline SpringSet limit_point(const LimitArguments<Real>& arguments, std::size_t i, SpringSet todo = all_springs) {
     const auto& [x, y, z] = arguments.x;
     const auto columns = static_cast<std::ptrdiff_t>(arguments.columns);
-    const auto column = static_cast<std::ptrdiff_t>(i % arguments.columns);
-    std::size_t shortened = 0;
-    for (std::size_t s = 0; s < stencil_size; ++s) {
+    const auto column = static_cast<std::ptrdiff_t>(static_cast<std::uint32_t>(i) % arguments.columns);
+    SpringSet shortened = 0;
+    while (todo != 0) {
+        const auto s = static_cast<std::size_t>(std::countr_zero(todo));
+        todo &= todo - 1;
         const SpringStencil& spring = spring_stencil[s];
         const std::ptrdiff_t other = static_cast<std::ptrdiff_t>(i) + spring.rows * columns + spring.columns;
         if (column + spring.columns < 0 || column + spring.columns >= columns || other < 0)
             continue;
         const auto b = static_cast<std::size_t>(other);
         const Real dx = x[b] - x[i], dy = y[b] - y[i], dz = z[b] - z[i];
-        const Real length = std::sqrt(dx * dx + dy * dy + dz * dz);
-        const Real longest = static_cast<Real>(stretch_limit) * arguments.rest.of[s][i & arguments.rest.mask];
+        const Real square = dx * dx + dy * dy + dz * dz;
+        const Real rest = arguments.rest.of[s][i & arguments.rest.mask];
+        if (arguments.filter && square <= rest * rest * limit_filter<Real>)
+            continue;
+        const Real length = std::sqrt(square);
+        const Real longest = static_cast<Real>(stretch_limit) * rest;
         if (!(length > longest))
             continue;
         const bool a_pinned = arguments.pinned[i] != 0, b_pinned = arguments.pinned[b] != 0;
@@ -62,7 +75,8 @@ inline std::size_t limit_point(const LimitArguments<Real>& arguments, std::size_
             y[b] -= share * dy;
             z[b] -= share * dz;
         }
-        ++shortened;
+        shortened |= 1u << s;
+        todo |= all_springs & (~1u << s);
     }
     return shortened;
 }

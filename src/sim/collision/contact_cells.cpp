@@ -6,14 +6,15 @@
 #include <numeric>
 #include <utility>
 
+#include "sim/collision/near_pairs.h"
+
 namespace clothlab::sim {
 namespace {
 
-/// Counting sort of the active points by bucket: `order`, and where each bucket ends. Points of a bucket stay
-/// ascending.
+/// Counting sort of all points by bucket: `order`, and where each bucket ends. Points of a bucket stay ascending.
 template <class Real>
 void sort_by_bucket(SelfCollisionWork<Real>& work, std::size_t buckets) {
-    const std::size_t count = work.active.size();
+    const std::size_t count = work.bucket.size();
     std::fill_n(work.bucket_end.begin(), buckets, 0u);
     for (std::size_t k = 0; k < count; ++k)
         ++work.bucket_end[work.bucket[k]];
@@ -22,50 +23,79 @@ void sort_by_bucket(SelfCollisionWork<Real>& work, std::size_t buckets) {
         begin += std::exchange(work.bucket_end[b], begin);
     // What is now each bucket's beginning moves on to its end.
     for (std::size_t k = 0; k < count; ++k)
-        work.order[work.bucket_end[work.bucket[k]]++] = work.active[k];
+        work.order[work.bucket_end[work.bucket[k]]++] = static_cast<std::uint32_t>(k);
 }
 
-/// Some threads are only worth waking for so many points.
-constexpr std::size_t points_for_threads = 256;
+/// Where the pairs are found to be too many, it is not tried again for so many steps.
+constexpr int steps_without_pairs = 64;
+
+template <class Real>
+CellPassArguments<Real> all_buckets(const Model<Real>& model, State<Real>& state, SelfCollisionWork<Real>& s) {
+    return {state.position.axes(),
+            s.sorted.axes(),
+            std::as_const(s.sorted_cells).axes(),
+            s.order.data(),
+            s.bucket_end.data(),
+            0,
+            std::bit_ceil(state.position.size()),
+            model.pinned.data(),
+            Real(2) * model.thickness,
+            static_cast<Real>(model.substeps)};
+}
 
 } // namespace
 
 template <class Real>
-std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+void sort_into_cells(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work) {
     SelfCollisionWork<Real>& s = work.self_collision;
-    const std::size_t count = s.active.size();
+    const std::size_t count = position.size();
     const std::size_t buckets = std::bit_ceil(count);
-    const CellArguments<Real> cells{
-        std::as_const(state.position).axes(),    s.active.data(), count, {model.cell_x, model.cell_y, model.cell_z},
-        static_cast<std::uint32_t>(buckets - 1), s.bucket.data()};
-    work.kernels->buckets(cells);
+    CellArguments<Real> cells{position.axes(), count, {model.cell_x, model.cell_y, model.cell_z}};
+    s.sorted_bound = static_cast<double>(
+        work.kernels->buckets(cells, static_cast<std::uint32_t>(buckets - 1), s.bucket.data()));
     sort_by_bucket(s, buckets);
 
-    const Axes<Real> x = state.position.axes(), sorted = s.sorted.axes();
+    const ConstAxes<Real> x = position.axes();
+    const Axes<Real> sorted = s.sorted.axes();
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t k = 0; k < count; ++k)
             sorted[axis][k] = x[axis][s.order[k]];
-    const std::size_t padded = std::min(count + work.kernels->lanes, s.sorted.size());
+    // Behind the last point lie points of no cell.
     for (std::size_t axis = 0; axis < 3; ++axis)
-        std::fill(sorted[axis] + count, sorted[axis] + padded, std::numeric_limits<Real>::quiet_NaN());
-    work.kernels->cells(cells, std::as_const(s.sorted).axes(), padded, s.sorted_cells.axes());
+        std::fill(sorted[axis] + count, sorted[axis] + s.sorted.size(), std::numeric_limits<Real>::quiet_NaN());
+    cells.x = std::as_const(s.sorted).axes();
+    cells.count = s.sorted.size();
+    work.kernels->cells(cells, s.sorted_cells.axes());
+}
 
-    const CellPassArguments<Real> all{x,
-                                      sorted,
-                                      std::as_const(s.sorted_cells).axes(),
-                                      s.order.data(),
-                                      s.bucket_end.data(),
-                                      0,
-                                      buckets,
-                                      model.pinned.data(),
-                                      Real(2) * model.thickness,
-                                      static_cast<Real>(model.substeps)};
+template <class Real>
+bool find_pairs_in_cells(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    SelfCollisionWork<Real>& s = work.self_collision;
+    if (s.without_pairs > 0) {
+        --s.without_pairs;
+        return false;
+    }
+    const double reach = reach_of(model, s.sorted_bound);
+    const std::size_t most = most_pairs(state.position.size());
+    s.pairs.resize(most);
+    const std::size_t found =
+        work.kernels->cell_pairs(all_buckets(model, state, s), static_cast<Real>(reach * reach * (1 + 1e-6)),
+                                 s.pairs.data(), most);
+    s.pairs.resize(std::min(found, most));
+    if (found > most)
+        s.without_pairs = steps_without_pairs;
+    return found <= most;
+}
+
+template <class Real>
+std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    const CellPassArguments<Real> all = all_buckets(model, state, work.self_collision);
     const int threads = work.pool ? work.choice.threads() : 1;
-    if (threads == 1 || count < points_for_threads)
+    if (threads == 1)
         return work.kernels->cell_pass(all);
     const auto pass = [&](int index) {
         const auto cut = [&](int i) {
-            return buckets * static_cast<std::size_t>(i) / static_cast<std::size_t>(threads);
+            return all.last_bucket * static_cast<std::size_t>(i) / static_cast<std::size_t>(threads);
         };
         CellPassArguments<Real> part = all;
         part.first_bucket = cut(index);
@@ -76,7 +106,12 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     return std::accumulate(work.counts.begin(), work.counts.begin() + threads, std::size_t{0});
 }
 
-template std::size_t resolve_in_cells<float>(const Model<float>&, State<float>&, Workspace<float>&);
-template std::size_t resolve_in_cells<double>(const Model<double>&, State<double>&, Workspace<double>&);
+#define CLOTHLAB_DEFINE(Real)                                                                                          \
+    template void sort_into_cells<Real>(const Model<Real>&, const Vec3Array<Real>&, Workspace<Real>&);                 \
+    template bool find_pairs_in_cells<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);                       \
+    template std::size_t resolve_in_cells<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);
+CLOTHLAB_DEFINE(float)
+CLOTHLAB_DEFINE(double)
+#undef CLOTHLAB_DEFINE
 
 } // namespace clothlab::sim

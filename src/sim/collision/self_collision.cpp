@@ -5,8 +5,9 @@
 #include <cmath>
 #include <type_traits>
 
-#include "sim/collision/active_points.h"
 #include "sim/collision/contact_cells.h"
+#include "sim/collision/contact_pairs.h"
+#include "sim/collision/near_pairs.h"
 #include "sim/random.h"
 
 namespace clothlab::sim {
@@ -87,8 +88,13 @@ std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state,
         return 0; // no two points are nearer than that
     if (!work.kernels)
         return resolve_plainly(model, state, work.self_collision);
-    find_active_points(model, state.position, work);
-    return work.self_collision.active.empty() ? 0 : resolve_in_cells(model, state, work);
+    SelfCollisionWork<Real>& s = work.self_collision;
+    if (find_pairs(model, state.position, work))
+        return resolve_pairs(model, state, s);
+    sort_into_cells(model, state.position, work);
+    if (find_pairs_in_cells(model, state, work))
+        return resolve_pairs(model, state, s);
+    return resolve_in_cells(model, state, work);
 }
 
 template <class Real>
@@ -96,7 +102,7 @@ void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work) {
     const std::size_t points = model.grid->points();
     SelfCollisionWork<Real>& s = work.self_collision;
     s.anchored = false;
-    s.give_up = 0;
+    s.without_list = s.without_list_next = s.without_pairs = 0;
     if (!work.kernels) {
         s.cell.resize(points);
         s.lists.first.resize(std::bit_ceil(points));
@@ -104,9 +110,11 @@ void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work) {
         return;
     }
     s.anchor.resize(points);
-    s.pairs.reserve(points);
-    s.near.resize(points);
-    s.active.reserve(points);
+    s.far_pairs.reserve(most_far_pairs(points));
+    s.pairs.reserve(most_pairs(points) + most_far_pairs(points));
+    s.cursor.assign(points, 0);
+    s.active.assign(points / 64 + 1, 0);
+    s.partners.resize(2 * s.pairs.capacity());
     s.bucket.resize(points);
     s.order.resize(points);
     s.bucket_end.resize(std::max(std::bit_ceil(points), most_cells(points) + 1));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/aligned.h"
+#include "sim/kernels/kernels.h"
 
 namespace clothlab::sim {
 
@@ -25,17 +26,25 @@ struct SelfCollisionWork {
     // each other by more than the skin since, a pair that is not on the list is out of reach.
     Vec3Array<Real> anchor;
     bool anchored = false;
-    double skin = 0;                                 ///< m, of the list as it is
-    double anchor_bound = 0;                         ///< m, largest coordinate of the anchor
-    double coordinate_bound = 1;                     ///< m, no coordinate is expected to be larger
-    std::vector<std::array<std::uint32_t, 2>> pairs; ///< those on the list; none that are neighbours in the grid
-    int give_up = 0; ///< so many steps without a list, since it would have been too long
+    double skin = 0;             ///< m
+    double anchor_bound = 0;     ///< m, largest coordinate of the anchor
+    double coordinate_bound = 1; ///< m, no coordinate is expected to be larger
+    int age = 0;                 ///< steps since the list was made
+    int without_list = 0;        ///< steps to be done without it, since it was too long or did not last
+    int without_list_next = 0;   ///< how many the next time
+    int without_pairs = 0;       ///< steps to be done cell by cell, since the pairs were too many
+    std::vector<PointPair> far_pairs; ///< the list: none that are neighbours in the grid
 
-    std::vector<std::uint8_t> near;    ///< per point
-    std::vector<std::uint32_t> active; ///< points that may push or be pushed, ascending
-    // Points sorted by hash bucket or, while the list is made, by cell.
+    // Few contacts: pair by pair.
+    std::vector<PointPair> pairs;        ///< that may touch in this step
+    std::vector<std::uint32_t> cursor;   ///< per point; all zero between steps
+    std::vector<std::uint64_t> active;   ///< a bit per point; all zero between steps
+    std::vector<std::uint32_t> partners; ///< of the active points, one after the other
+
+    // Many: points sorted by hash bucket of their cell. Also used, by cell, while the list is made.
     std::vector<std::uint32_t> bucket, order, bucket_end;
     Vec3Array<Real> sorted, sorted_cells;
+    double sorted_bound = 0; ///< m, largest coordinate
 };
 
 } // namespace clothlab::sim

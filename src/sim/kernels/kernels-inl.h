@@ -50,9 +50,12 @@ const Kernels<Real>* table() {
                                            first_over_limit<Real>,
                                            limit<Real>,
                                            proximity<Real>,
+        far_pairs<Real>,
+        keep_pairs<Real>,
                                            buckets<Real>,
                                            cells<Real>,
-                                           cell_pass<Real>};
+                                           cell_pass<Real>,
+        cell_pairs<Real>};
     return &kernels;
 }
 #endif

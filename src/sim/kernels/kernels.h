@@ -8,7 +8,6 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -94,38 +93,51 @@ struct LimitArguments {
     std::size_t points, columns;
     RestLengths<Real> rest;
     const std::uint8_t* pinned; ///< per point
+    bool filter;                ///< the rest lengths may be squared (may_filter_limit)
 };
 
-/// Where points near each other are, among those that are neighbours in the grid (or diagonal ones), and how far
-/// points have moved against each other since `anchor`.
-/// Threads may mark the same point at once, always with the same value.
-inline void mark_near(std::uint8_t* near, std::size_t i) {
-    std::atomic_ref(near[i]).store(1, std::memory_order_relaxed);
-}
+/// Two points, by their indices.
+using PointPair = std::array<std::uint32_t, 2>;
 
+/// Which points in [begin, end) are near their neighbours in the grid (diagonal ones too, each pair found at the later
+/// point), and how far points have moved against each other since `anchor`.
 template <class Real>
 struct ProximityArguments {
     ConstAxes<Real> x;
     ConstAxes<Real> anchor; ///< null: no displacements wanted
     std::size_t points, columns;
     std::size_t begin, end;
-    Real reach_squared;            ///< m²: nearer pairs are marked
-    std::uint8_t* near;            ///< per point: 1 where it may be in such a pair; only ever set here
+    Real reach_squared;            ///< m²: pairs that are not at least so far apart are near
+    PointPair* pairs;              ///< out
+    std::size_t most_pairs;        ///< beyond these, pairs are counted but not written
     std::array<Real, 3> low, high; ///< out: bounds of x - anchor
-    std::size_t pairs = 0;         ///< out: pairs marked
+    std::size_t count = 0;         ///< out: near pairs
+};
+
+/// All pairs nearer than `reach` of points that lie sorted by the cells of a box, each cell at least that wide, but for
+/// those that are neighbours in the grid (diagonal ones too).
+template <class Real>
+struct FarPairArguments {
+    ConstAxes<Real> sorted; ///< positions by cell, x fastest; a vector of padding behind
+    const std::uint32_t* order; ///< point of each sorted entry
+    const Real* index;          ///< the same as Real
+    const std::uint32_t* cell_end;   ///< per cell; it begins where the one before ends
+    std::array<std::uint32_t, 3> cells; ///< along x, y, z
+    std::uint32_t columns;           ///< of the grid
+    Real reach_squared;              ///< m²
+    PointPair* pairs;                ///< out
+    std::size_t most_pairs;
+};
+
+/// Points and the size of the cells they lie in.
+template <class Real>
+struct CellArguments {
+    ConstAxes<Real> x;
+    std::size_t count;        ///< how many points
+    std::array<Real, 3> cell; ///< m
 };
 
 /// The course's self-collision among points that lie sorted by cell.
-template <class Real>
-struct CellArguments {
-    ConstAxes<Real> x;           ///< of all points
-    const std::uint32_t* active; ///< indices of the points that take part, ascending
-    std::size_t count;           ///< how many
-    std::array<Real, 3> cell;    ///< m, sizes of a cell
-    std::uint32_t bucket_mask;   ///< number of buckets - 1
-    std::uint32_t* bucket;       ///< out, per active point
-};
-
 template <class Real>
 struct CellPassArguments {
     Axes<Real> x;                          ///< of all points; moved
@@ -152,12 +164,21 @@ struct Kernels {
     /// The sweep, when it is known of all points from the third row on but before `from` that none is over the limit.
     std::size_t (*limit)(const LimitArguments<Real>&, std::size_t from);
     void (*proximity)(ProximityArguments<Real>&);
-    /// Finds the hash bucket of each active point's cell.
-    void (*buckets)(const CellArguments<Real>&);
-    /// Finds the cells of so many points that lie side by side, a multiple of a vector or less than one over: whole
-    /// numbers.
-    void (*cells)(const CellArguments<Real>&, ConstAxes<Real> x, std::size_t count, Axes<Real> cells);
+    /// Returns how many pairs there are; most_pairs + 1 when there are more than most_pairs.
+    std::size_t (*far_pairs)(const FarPairArguments<Real>&);
+    /// Keeps, in order, those of `count` pairs whose points are not at least the reach apart and lie in the same cell;
+    /// returns how many.
+    std::size_t (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
+    /// Finds the hash bucket of each point's cell, out of mask + 1, a power of two. Returns the largest coordinate.
+    Real (*buckets)(const CellArguments<Real>&, std::uint32_t mask, std::uint32_t* bucket);
+    /// Finds the cells of the points, whole numbers; the last vector is written whole.
+    void (*cells)(const CellArguments<Real>&, Axes<Real> cells);
+    /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
     std::size_t (*cell_pass)(const CellPassArguments<Real>&);
+    /// Only finds the pairs of points in the same cell that are not at least `reach` apart; returns how many there are,
+    /// most_pairs + 1 when there are more than most_pairs.
+    std::size_t (*cell_pairs)(const CellPassArguments<Real>&, Real reach_squared, PointPair* pairs,
+                              std::size_t most_pairs);
 };
 
 /// The kernels of a set that is_supported(); null for `scalar`, which has none.

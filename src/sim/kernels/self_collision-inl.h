@@ -26,8 +26,8 @@ void proximity(ProximityArguments<Real>& a) {
     Columns<Real> column(a.columns, a.begin);
     std::size_t pairs = 0;
     const auto pair = [&](std::ptrdiff_t i, std::ptrdiff_t other) {
-        mark_near(a.near, static_cast<std::size_t>(i));
-        mark_near(a.near, static_cast<std::size_t>(other));
+        if (pairs < a.most_pairs)
+            a.pairs[pairs] = {static_cast<std::uint32_t>(other), static_cast<std::uint32_t>(i)};
         ++pairs;
     };
     const auto near_one = [&](std::ptrdiff_t i, std::ptrdiff_t other) {
@@ -81,7 +81,7 @@ void proximity(ProximityArguments<Real>& a) {
         mark(upper_left, -columns - 1);
         mark(upper_right, -columns + 1);
     }
-    a.pairs = pairs;
+    a.count = pairs;
     HWY_ALIGN Real lane_values[HWY_LANES(Real)];
     const auto reduce = [&](Lane<Real> v, bool smallest) HWY_ATTR {
         hn::Store(v, d, lane_values);
@@ -92,6 +92,80 @@ void proximity(ProximityArguments<Real>& a) {
     };
     a.low = {reduce(low.x, true), reduce(low.y, true), reduce(low.z, true)};
     a.high = {reduce(high.x, false), reduce(high.y, false), reduce(high.z, false)};
+}
+
+template <class Real>
+std::size_t far_pairs(const FarPairArguments<Real>& a) {
+    const Tag<Real> d;
+    const auto reach = hn::Set(d, a.reach_squared), one = hn::Set(d, Real(1));
+    const auto row_before = hn::Set(d, static_cast<Real>(a.columns - 1)),
+               row_after = hn::Set(d, static_cast<Real>(a.columns + 1));
+    const auto [nx, ny, nz] = a.cells;
+    std::size_t count = 0;
+    const auto cell_begin = [&](std::size_t cell) { return cell == 0 ? 0 : a.cell_end[cell - 1]; };
+    std::uint32_t k = 0;
+    for (std::uint32_t z = 0; z < nz; ++z)
+        for (std::uint32_t y = 0; y < ny; ++y) {
+            const std::size_t row = (std::size_t{z} * ny + y) * nx;
+            if (a.cell_end[row + nx - 1] == k)
+                continue; // an empty row of cells
+            for (std::uint32_t x = 0; x < nx; ++x) {
+                const std::uint32_t cell_end = a.cell_end[row + x];
+                if (k == cell_end)
+                    continue;
+                // Each pair is met once, at the point that comes first in the order: in what is left of its own cell and
+                // the one after, in the row after, and in the three of the layer after. Three cells along x are one run.
+                const std::uint32_t first = x > 0 ? x - 1 : 0, last = HWY_MIN(x + 1, nx - 1);
+                std::uint32_t from[5], to[5];
+                int runs = 1;
+                to[0] = a.cell_end[row + last];
+                for (int next = 0; next < 4; ++next) {
+                    const std::uint32_t next_z = next == 0 ? z : z + 1;
+                    const std::uint32_t next_y = next == 0 ? y + 1 : y + static_cast<std::uint32_t>(next) - 2;
+                    if (next_z >= nz || next_y >= ny) // the latter also when y was 0 - 1
+                        continue;
+                    const std::size_t next_row = (std::size_t{next_z} * ny + next_y) * nx;
+                    from[runs] = cell_begin(next_row + first);
+                    to[runs] = a.cell_end[next_row + last];
+                    runs += from[runs] < to[runs] ? 1 : 0;
+                }
+                for (; k < cell_end; ++k) {
+                    const std::uint32_t i = a.order[k], column = i % a.columns;
+                    const bool at_border = column == 0 || column + 1 == a.columns;
+                    const auto index = hn::Set(d, a.index[k]);
+                    const Lane3<Real> point = set3(a.sorted[0][k], a.sorted[1][k], a.sorted[2][k]);
+                    from[0] = k + 1;
+                    for (int r = 0; r < runs; ++r)
+                        for (std::uint32_t q = from[r]; q < to[r]; q += HWY_LANES(Real)) {
+                            const Lane3<Real> v = subtract3(load3(a.sorted, q), point);
+                            // The eight around it in the grid, or across the border from the end of one row to the
+                            // beginning of the next.
+                            const auto apart = hn::Abs(hn::Sub(hn::LoadU(d, a.index + q), index));
+                            const auto around =
+                                hn::Or(hn::Eq(apart, one), hn::And(hn::Ge(apart, row_before), hn::Le(apart, row_after)));
+                            auto near = hn::And(hn::Le(dot3(v, v), reach),
+                                                lanes_before<Real>(static_cast<std::ptrdiff_t>(to[r] - q)));
+                            if (HWY_LIKELY(!at_border))
+                                near = hn::AndNot(around, near);
+                            if (HWY_LIKELY(hn::AllFalse(d, near)))
+                                continue;
+                            for (std::uint32_t bits = bits_of<Real>(near); bits != 0; bits &= bits - 1) {
+                                const std::uint32_t j = a.order[q + static_cast<std::uint32_t>(std::countr_zero(bits))];
+                                if (at_border) {
+                                    const std::uint32_t to_column = j % a.columns;
+                                    const std::uint32_t rows = i > j ? i / a.columns - j / a.columns : j / a.columns - i / a.columns;
+                                    if (rows <= 1 && to_column + 1 >= column && to_column <= column + 1)
+                                        continue;
+                                }
+                                if (count == a.most_pairs)
+                                    return count + 1;
+                                a.pairs[count++] = {i, j};
+                            }
+                        }
+                }
+            }
+        }
+    return count;
 }
 
 /// Cell coordinates as integers, for hashing only: what is out of range goes to some integer.
@@ -113,35 +187,61 @@ HWY_INLINE Lane<Real> cell_of(Lane<Real> x, Real size) {
 }
 
 template <class Real>
-void cells(const CellArguments<Real>& a, ConstAxes<Real> x, std::size_t count, Axes<Real> out) {
+void cells(const CellArguments<Real>& a, Axes<Real> out) {
     const Tag<Real> d;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t k = 0; k < count; k += HWY_LANES(Real))
-            hn::StoreU(cell_of<Real>(hn::LoadU(d, x[axis] + k), a.cell[axis]), d, out[axis] + k);
+        for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real))
+            hn::StoreU(cell_of<Real>(hn::LoadU(d, a.x[axis] + k), a.cell[axis]), d, out[axis] + k);
 }
 
 template <class Real>
-void buckets(const CellArguments<Real>& a) {
+Real buckets(const CellArguments<Real>& a, std::uint32_t mask, std::uint32_t* bucket) {
     const Tag<Real> d;
+    auto bound = hn::Zero(d);
     const hn::Rebind<std::int32_t, Tag<Real>> di;
-    HWY_ALIGN Real gathered[3][HWY_LANES(Real)] = {};
     HWY_ALIGN std::int32_t hashes[HWY_LANES(Real)];
     constexpr std::int32_t primes[3] = {73856093, 19349663, 83492791};
     for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real)) {
-        const std::size_t n = HWY_MIN(a.count - k, HWY_LANES(Real));
-        for (std::size_t l = 0; l < n; ++l)
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                gathered[axis][l] = a.x[axis][a.active[k + l]];
         auto hash = hn::Zero(di);
+        const auto inside = lanes_before<Real>(static_cast<std::ptrdiff_t>(a.count - k));
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto cell = cell_of<Real>(hn::Load(d, gathered[axis]), a.cell[axis]);
+            const auto x = hn::LoadU(d, a.x[axis] + k);
+            bound = hn::Max(bound, hn::IfThenElseZero(inside, hn::Abs(x)));
+            const auto cell = cell_of<Real>(x, a.cell[axis]);
             hash = hn::Xor(hash, hn::Mul(whole<Real>(cell), hn::Set(di, primes[axis])));
         }
-        hash = hn::Xor(hash, hn::ShiftRight<13>(hash));
-        hn::Store(hash, di, hashes);
-        for (std::size_t l = 0; l < n; ++l)
-            a.bucket[k + l] = static_cast<std::uint32_t>(hashes[l]) & a.bucket_mask;
+        hn::Store(hn::Xor(hash, hn::ShiftRight<13>(hash)), di, hashes);
+        for (std::size_t l = 0; l < HWY_MIN(a.count - k, HWY_LANES(Real)); ++l)
+            bucket[k + l] = static_cast<std::uint32_t>(hashes[l]) & mask;
     }
+    return hn::GetLane(hn::MaxOfLanes(d, bound));
+}
+
+template <class Real>
+std::size_t keep_pairs(const CellArguments<Real>& a, Real reach_squared, PointPair* pairs, std::size_t count) {
+    const Tag<Real> d;
+    constexpr std::size_t step = HWY_LANES(Real);
+    HWY_ALIGN Real ends[2][3][step] = {};
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < count; k += step) {
+        const std::size_t n = HWY_MIN(count - k, step);
+        for (std::size_t l = 0; l < n; ++l)
+            for (std::size_t end = 0; end < 2; ++end)
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    ends[end][axis][l] = a.x[axis][pairs[k + l][end]];
+        auto square = hn::Zero(d);
+        auto keep = lanes_before<Real>(static_cast<std::ptrdiff_t>(n));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto first = hn::Load(d, ends[0][axis]), second = hn::Load(d, ends[1][axis]);
+            const auto v = hn::Sub(first, second);
+            square = hn::Add(square, hn::Mul(v, v));
+            keep = hn::And(keep, hn::Eq(cell_of<Real>(first, a.cell[axis]), cell_of<Real>(second, a.cell[axis])));
+        }
+        keep = hn::AndNot(hn::Ge(square, hn::Set(d, reach_squared)), keep);
+        for (std::uint32_t bits = bits_of<Real>(keep); bits != 0; bits &= bits - 1)
+            pairs[kept++] = pairs[k + static_cast<std::size_t>(std::countr_zero(bits))];
+    }
+    return kept;
 }
 
 /// The pushes on the point at (x, y, z) in a cell from the sorted points `first`, `first + 1`, ...: added to `sum` one
@@ -217,6 +317,35 @@ std::size_t cell_pass(const CellPassArguments<Real>& a) {
         begin = end;
     }
     return pairs;
+}
+
+template <class Real>
+std::size_t cell_pairs(const CellPassArguments<Real>& a, Real reach_squared, PointPair* pairs, std::size_t most_pairs) {
+    const Tag<Real> d;
+    const ConstAxes<Real> sorted{a.sorted[0], a.sorted[1], a.sorted[2]};
+    const auto reach = hn::Set(d, reach_squared);
+    std::size_t count = 0;
+    std::size_t k = a.first_bucket == 0 ? 0 : a.bucket_end[a.first_bucket - 1];
+    for (std::size_t bucket = a.first_bucket; bucket < a.last_bucket; ++bucket)
+        for (const std::size_t end = a.bucket_end[bucket]; k < end; ++k) {
+            const Lane3<Real> x = set3(sorted[0][k], sorted[1][k], sorted[2][k]);
+            const Lane3<Real> cell = set3(a.cells[0][k], a.cells[1][k], a.cells[2][k]);
+            for (std::size_t q = k + 1; q < end; q += HWY_LANES(Real)) {
+                // What lies behind the bucket is of another cell.
+                const Lane3<Real> v = subtract3(x, load3(sorted, static_cast<std::ptrdiff_t>(q)));
+                const Lane3<Real> c = load3(a.cells, static_cast<std::ptrdiff_t>(q));
+                const auto same = hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z));
+                const auto near = hn::AndNot(hn::Ge(dot3(v, v), reach), same);
+                if (HWY_LIKELY(hn::AllFalse(d, near)))
+                    continue;
+                for (std::uint32_t bits = bits_of<Real>(near); bits != 0; bits &= bits - 1) {
+                    if (count == most_pairs)
+                        return count + 1;
+                    pairs[count++] = {a.order[k], a.order[q + static_cast<std::size_t>(std::countr_zero(bits))]};
+                }
+            }
+        }
+    return count;
 }
 
 } // namespace clothlab::sim::HWY_NAMESPACE

@@ -3,7 +3,7 @@
 //
 // That gives the plain sweep's bits. A point's springs are tested after all that comes before its vector is done; a
 // correction within the vector moves the point i or one before it, which, of the later points of the same vector, only
-// i + 1 and i + 2 have springs to (a vector being shorter than a row less three): they are gone through as well.
+// i + 1 and i + 2 have springs to (a vector being shorter than a row less three): those springs are gone through as well.
 #if defined(CLOTHLAB_SIM_KERNELS_STRETCH_LIMIT_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLOTHLAB_SIM_KERNELS_STRETCH_LIMIT_INL_H
 #undef CLOTHLAB_SIM_KERNELS_STRETCH_LIMIT_INL_H
@@ -20,25 +20,37 @@
 HWY_BEFORE_NAMESPACE();
 namespace clothlab::sim::HWY_NAMESPACE {
 
-/// The points i, i + 1, ... of which an own spring may be over the limit, by squares; a few units in the last place
-/// early, so that none is missed. Two rows must lie before i.
+/// Of the points i, i + 1, ..., those of which a spring may be over the limit, by stencil entry; by squares, and a few
+/// units in the last place early, so that none is missed. Two rows must lie before i.
 template <class Real>
-HWY_INLINE LaneMask<Real> may_be_over(const LimitArguments<Real>& a, const Columns<Real>& column, std::ptrdiff_t i) {
+struct MayBeOver {
+    LaneMask<Real> up, left, upper_left, upper_right, two_left, two_up;
+    LaneMask<Real> any() const {
+        return hn::Or(hn::Or(hn::Or(up, left), hn::Or(upper_left, upper_right)), hn::Or(two_left, two_up));
+    }
+};
+
+template <class Real>
+HWY_INLINE LaneMask<Real> longer(const LimitArguments<Real>& a, const Lane3<Real>& x, std::size_t s, std::ptrdiff_t i,
+                                 std::ptrdiff_t other) {
     const Tag<Real> d;
-    const ConstAxes<Real> axes{a.x[0], a.x[1], a.x[2]};
+    const Lane3<Real> v = subtract3(load3(a.x, other), x);
+    const auto rest = hn::LoadU(d, a.rest.of[s] + (static_cast<std::size_t>(i) & a.rest.mask));
+    return hn::Gt(dot3(v, v), hn::Mul(hn::Mul(rest, rest), hn::Set(d, limit_filter<Real>)));
+}
+
+template <class Real>
+HWY_INLINE MayBeOver<Real> may_be_over(const LimitArguments<Real>& a, const Columns<Real>& column, std::ptrdiff_t i) {
     const auto columns = static_cast<std::ptrdiff_t>(a.columns);
-    const Lane3<Real> x = load3(axes, i);
-    const auto square_limit = hn::Set(d, limit_filter<Real>);
-    const auto over = [&](std::size_t s, std::ptrdiff_t other) HWY_ATTR {
-        const Lane3<Real> v = subtract3(load3(axes, i + other), x);
-        const auto rest = hn::LoadU(d, a.rest.of[s] + (static_cast<std::size_t>(i) & a.rest.mask));
-        return hn::Gt(dot3(v, v), hn::Mul(hn::Mul(rest, rest), square_limit));
-    };
-    auto any = hn::Or(over(0, -columns), over(5, -2 * columns));
-    any = hn::Or(any, hn::And(hn::Or(over(1, -1), over(2, -columns - 1)), column.has_left()));
-    any = hn::Or(any, hn::And(over(3, -columns + 1), column.has_right()));
-    any = hn::Or(any, hn::And(over(4, -2), column.has_two_left()));
-    return hn::And(any, lanes_before<Real>(static_cast<std::ptrdiff_t>(a.points) - i));
+    const Lane3<Real> x = load3(a.x, i);
+    const auto exists = lanes_before<Real>(static_cast<std::ptrdiff_t>(a.points) - i);
+    const auto has_left = hn::And(exists, column.has_left());
+    return {hn::And(exists, longer(a, x, 0, i, i - columns)),
+            hn::And(has_left, longer(a, x, 1, i, i - 1)),
+            hn::And(has_left, longer(a, x, 2, i, i - columns - 1)),
+            hn::And(hn::And(exists, column.has_right()), longer(a, x, 3, i, i - columns + 1)),
+            hn::And(hn::And(exists, column.has_two_left()), longer(a, x, 4, i, i - 2)),
+            hn::And(exists, longer(a, x, 5, i, i - 2 * columns))};
 }
 
 /// Where vectors begin that have two rows before them.
@@ -53,11 +65,50 @@ std::size_t first_over_limit(const LimitArguments<Real>& a, std::size_t from, st
     from = HWY_MAX(from, vectors_from(a)); // those before it the sweep does one by one in any case
     Columns<Real> column(a.columns, from);
     for (std::size_t i = from; i < to; i += HWY_LANES(Real)) {
-        if (!hn::AllFalse(d, may_be_over(a, column, static_cast<std::ptrdiff_t>(i))))
+        if (!hn::AllFalse(d, may_be_over(a, column, static_cast<std::ptrdiff_t>(i)).any()))
             return i;
         column.advance();
     }
     return a.points;
+}
+
+/// A vector of points, of which some springs may be over the limit, gone through one by one.
+template <class Real>
+HWY_NOINLINE std::size_t limit_vector(const LimitArguments<Real>& a, std::size_t i, const MayBeOver<Real>& over) {
+    constexpr std::size_t step = HWY_LANES(Real);
+    const std::uint32_t bits[stencil_size] = {bits_of<Real>(over.up),          bits_of<Real>(over.left),
+                                              bits_of<Real>(over.upper_left),  bits_of<Real>(over.upper_right),
+                                              bits_of<Real>(over.two_left),    bits_of<Real>(over.two_up)};
+    SpringSet todo[step + 2] = {};
+    std::uint32_t points = 0;
+    for (std::size_t s = 0; s < stencil_size; ++s) {
+        points |= bits[s];
+        for (std::uint32_t left = bits[s]; left != 0; left &= left - 1)
+            todo[std::countr_zero(left)] |= 1u << s;
+    }
+    const std::uint32_t all = static_cast<std::uint32_t>((1u << HWY_MIN(a.points - i, step)) - 1u);
+    const bool short_rows = a.columns < step + 3;
+    std::size_t count = 0;
+    for (; points != 0; points &= points - 1) {
+        const auto l = static_cast<std::size_t>(std::countr_zero(points));
+        const SpringSet done = limit_point(a, i + l, todo[l]);
+        if (done == 0)
+            continue;
+        count += static_cast<std::size_t>(std::popcount(done));
+        if (short_rows) {
+            for (std::size_t later = l + 1; later < step; ++later)
+                todo[later] = all_springs;
+            points |= all & (~1u << l);
+            continue;
+        }
+        // What moved is this point and the other ends of `done`: which springs of the next two points end there?
+        constexpr SpringSet up = 1, left = 2, upper_left = 4, upper_right = 8, two_left = 16;
+        todo[l + 1] |= left | ((done & up) != 0 ? upper_left : 0) | ((done & left) != 0 ? two_left : 0) |
+                       ((done & upper_right) != 0 ? up : 0);
+        todo[l + 2] |= two_left | ((done & upper_right) != 0 ? upper_left : 0);
+        points |= all & (6u << l);
+    }
+    return count;
 }
 
 template <class Real>
@@ -66,25 +117,15 @@ std::size_t limit(const LimitArguments<Real>& a, std::size_t from) {
     std::size_t shortened = 0;
     const std::size_t vectors = vectors_from(a);
     for (std::size_t i = 0; i < HWY_MIN(vectors, a.points); ++i)
-        shortened += limit_point(a, i);
+        shortened += static_cast<std::size_t>(std::popcount(limit_point(a, i)));
     if (shortened != 0 || from < vectors)
         from = vectors;
     Columns<Real> column(a.columns, from);
-    const bool short_rows = a.columns < HWY_LANES(Real) + 3;
     for (std::size_t i = from; i < a.points; i += HWY_LANES(Real)) {
-        std::uint32_t bits = 0;
-        if (const auto over = may_be_over(a, column, static_cast<std::ptrdiff_t>(i)); !hn::AllFalse(d, over))
-            bits = bits_of<Real>(over);
+        const MayBeOver<Real> over = may_be_over(a, column, static_cast<std::ptrdiff_t>(i));
+        if (HWY_UNLIKELY(!hn::AllFalse(d, over.any())))
+            shortened += limit_vector(a, i, over);
         column.advance();
-        const std::uint32_t all = static_cast<std::uint32_t>((1u << HWY_MIN(a.points - i, HWY_LANES(Real))) - 1u);
-        while (bits != 0) {
-            const int lane = std::countr_zero(bits);
-            bits &= bits - 1;
-            const std::size_t done = limit_point(a, i + static_cast<std::size_t>(lane));
-            shortened += done;
-            if (done != 0)
-                bits |= all & (short_rows ? ~0u << (lane + 1) : 6u << lane);
-        }
     }
     return shortened;
 }

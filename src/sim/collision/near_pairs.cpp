@@ -1,0 +1,210 @@
+#include "sim/collision/near_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace clothlab::sim {
+namespace {
+
+/// The list's skin as a multiple of the distance at which points touch: a wider one lasts longer and lists more pairs.
+constexpr double skin_share = 1;
+/// A list that does not last so many steps costs more than it saves; then it is left for some steps, and for twice as
+/// many every next time.
+constexpr int least_age = 16, least_without = 64, most_without = 1024;
+
+/// Cells of a box around all points, not more than most_cells(), each at least `size` wide: x fastest.
+template <class Real>
+struct Box {
+    Box(const Vec3Array<Real>& position, double size) {
+        const auto axes = position.axes();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            Real low = axes[axis][0], high = low, zero = 0;
+            for (std::size_t i = 0; i < position.size(); ++i) {
+                low = std::min(low, axes[axis][i]);
+                high = std::max(high, axes[axis][i]);
+                zero += axes[axis][i] * 0; // not if it is infinite or NaN
+            }
+            finite = finite && zero == 0;
+            from[axis] = static_cast<double>(low);
+            extent[axis] = static_cast<double>(high) - from[axis];
+            bound = std::max({bound, std::abs(from[axis]), std::abs(static_cast<double>(high))});
+        }
+        for (usable = finite && bound < 1e6 * size;; size *= 1.25) {
+            double total = 1;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                total *= std::floor(extent[axis] / size) + 1;
+            if (!usable || total <= static_cast<double>(most_cells(position.size())))
+                break;
+        }
+        per_metre = 1 / size;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            count[axis] = usable ? static_cast<std::uint32_t>(extent[axis] * per_metre) + 1 : 1;
+    }
+    std::uint32_t along(std::size_t axis, Real v) const {
+        return std::min(static_cast<std::uint32_t>((static_cast<double>(v) - from[axis]) * per_metre), count[axis] - 1);
+    }
+    std::array<double, 3> from{}, extent{};
+    double bound = 0, per_metre = 0;
+    bool finite = true;
+    bool usable = false; ///< finite, and small enough for whole numbers
+    std::array<std::uint32_t, 3> count{};
+};
+
+/// Makes the list anew. False when the points are no longer finite, or the list would be too long.
+template <class Real>
+bool list_far_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work) {
+    SelfCollisionWork<Real>& s = work.self_collision;
+    const std::size_t points = position.size();
+    const double apart = 2 * static_cast<double>(model.thickness);
+    s.skin = skin_share * apart;
+    s.far_pairs.clear();
+    const double most = reach_of(model, s.coordinate_bound) + s.skin;
+    const Box<Real> box(position, most);
+    if (!box.usable)
+        return false;
+
+    // Counting sort by cell.
+    const std::size_t cells = std::size_t{box.count[0]} * box.count[1] * box.count[2];
+    std::fill_n(s.bucket_end.begin(), cells, 0u);
+    for (std::size_t i = 0; i < points; ++i) {
+        s.bucket[i] = (box.along(2, position.z[i]) * box.count[1] + box.along(1, position.y[i])) * box.count[0] +
+                      box.along(0, position.x[i]);
+        ++s.bucket_end[s.bucket[i]];
+    }
+    std::uint32_t begin = 0;
+    for (std::size_t c = 0; c < cells; ++c)
+        begin += std::exchange(s.bucket_end[c], begin);
+    for (std::uint32_t i = 0; i < points; ++i) {
+        const std::uint32_t k = s.bucket_end[s.bucket[i]]++;
+        s.order[k] = i;
+        s.sorted.x[k] = position.x[i];
+        s.sorted.y[k] = position.y[i];
+        s.sorted.z[k] = position.z[i];
+        s.sorted_cells.x[k] = static_cast<Real>(i);
+    }
+
+    s.far_pairs.resize(most_far_pairs(points));
+    const std::size_t found = work.kernels->far_pairs({std::as_const(s.sorted).axes(), s.order.data(),
+                                                       s.sorted_cells.x.data(), s.bucket_end.data(), box.count, static_cast<std::uint32_t>(model.grid->columns),
+                                                       static_cast<Real>(most * most), s.far_pairs.data(),
+                                                       s.far_pairs.size()});
+    const bool all_found = found <= s.far_pairs.size();
+    s.far_pairs.resize(all_found ? found : 0);
+    if (!all_found)
+        return false;
+    s.anchor = position;
+    s.anchor_bound = box.bound;
+    s.age = 0;
+    return true;
+}
+
+/// How far points have moved against each other, and whether too many neighbours in the grid are near each other to be
+/// listed.
+struct Proximity {
+    bool too_many = false;
+    double spread = 0;  ///< m, no two displacements since the list was made differ by more
+    double largest = 0; ///< m, displacement
+};
+
+template <class Real>
+Proximity look_at_neighbours(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work,
+                             Real reach_squared) {
+    SelfCollisionWork<Real>& s = work.self_collision;
+    const ConstAxes<Real> anchor = s.anchored ? std::as_const(s.anchor).axes() : ConstAxes<Real>{};
+    s.pairs.resize(most_pairs(position.size()));
+    const int ranges = for_ranges(model, work, [&](int index, std::size_t begin, std::size_t end) {
+        // Each thread has a part of the list that is in proportion to its points.
+        ProximityArguments<Real>& part = work.proximity[static_cast<std::size_t>(index)];
+        part = {position.axes(), anchor, position.size(), static_cast<std::size_t>(model.grid->columns), begin, end,
+                reach_squared, s.pairs.data() + begin, end - begin, {}, {}, 0};
+        work.kernels->proximity(part);
+    });
+    Proximity result;
+    std::size_t count = 0;
+    std::array<double, 3> low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (int r = 0; r < ranges; ++r) {
+        const ProximityArguments<Real>& part = work.proximity[static_cast<std::size_t>(r)];
+        result.too_many = result.too_many || part.count > part.most_pairs;
+        if (!result.too_many)
+            count = static_cast<std::size_t>(
+                std::copy(part.pairs, part.pairs + part.count, s.pairs.data() + count) - s.pairs.data());
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], static_cast<double>(part.low[axis]));
+            high[axis] = std::max(high[axis], static_cast<double>(part.high[axis]));
+            if (s.anchored)
+                result.largest = std::max({result.largest, std::abs(low[axis]), std::abs(high[axis])});
+        }
+    }
+    s.pairs.resize(result.too_many ? 0 : count);
+    result.spread = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    return result;
+}
+
+/// Leaves the list for some time. Returns false.
+template <class Real>
+bool leave(SelfCollisionWork<Real>& s) {
+    s.anchored = false;
+    s.without_list_next = std::clamp(2 * s.without_list_next, least_without, most_without);
+    s.without_list = s.without_list_next;
+    return false;
+}
+
+} // namespace
+
+template <class Real>
+double reach_of(const Model<Real>& model, double coordinate_bound) {
+    const double apart = 2 * static_cast<double>(model.thickness);
+    constexpr double rounding = std::numeric_limits<Real>::epsilon();
+    return (apart + apart / model.substeps) * (1 + 64 * rounding) + 8 * rounding * coordinate_bound;
+}
+
+template <class Real>
+bool find_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work) {
+    SelfCollisionWork<Real>& s = work.self_collision;
+    if (s.without_list > 0) {
+        --s.without_list;
+        return false;
+    }
+    constexpr double rounding = std::numeric_limits<Real>::epsilon();
+    const double reach = reach_of(model, s.coordinate_bound);
+    const Real reach_squared = static_cast<Real>(reach * reach * (1 + 8 * rounding));
+    Proximity proximity = look_at_neighbours(model, position, work, reach_squared);
+    if (proximity.too_many)
+        return leave(s);
+    ++s.age;
+    if (!s.anchored || !(proximity.spread <= s.skin * (1 - 1e-3) - 8 * rounding * s.coordinate_bound)) {
+        if (s.anchored && s.age < least_age)
+            return leave(s);
+        s.anchored = list_far_pairs(model, position, work);
+        if (!s.anchored)
+            return leave(s);
+        proximity.largest = 0;
+    } else if (s.age == 4 * least_age) {
+        s.without_list_next = 0; // it pays
+    }
+    const double bound = s.anchor_bound + proximity.largest;
+    if (!(bound <= s.coordinate_bound)) { // the reach was too small for points so far out
+        s.coordinate_bound = std::isfinite(bound) ? 2 * bound + 1 : s.coordinate_bound;
+        s.anchored = false;
+        return false;
+    }
+
+    const CellArguments<Real> cells{position.axes(), position.size(), {model.cell_x, model.cell_y, model.cell_z}};
+    s.pairs.insert(s.pairs.end(), s.far_pairs.begin(), s.far_pairs.end());
+    s.pairs.resize(work.kernels->keep_pairs(cells, reach_squared, s.pairs.data(), s.pairs.size()));
+    return true;
+}
+
+#define CLOTHLAB_DEFINE(Real)                                                                                          \
+    template bool find_pairs<Real>(const Model<Real>&, const Vec3Array<Real>&, Workspace<Real>&);                      \
+    template double reach_of<Real>(const Model<Real>&, double);
+CLOTHLAB_DEFINE(float)
+CLOTHLAB_DEFINE(double)
+#undef CLOTHLAB_DEFINE
+
+} // namespace clothlab::sim
