@@ -67,6 +67,25 @@ void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiC
     });
 }
 
+void add_bench(CLI::App& app, BenchArguments& a, int& status) {
+    auto* bench = app.add_subcommand("bench", "Time the textbook's algorithm against every kernel");
+    bench->add_option(
+        "--filter", a.filter,
+        "Only runs with a match of this regular expression in CASE/SIZE/PRECISION/KERNEL/THREADS, such as "
+        "falling/50/single/avx2/1, and the textbook's beside them");
+    bench
+        ->add_option("--sizes", a.sizes,
+                     "Points along the cloth's sides (default: 25,50,100,256,512,1024, or 50,100 with --quick)")
+        ->delimiter(',')
+        ->check(CLI::Range(2, 2048));
+    bench->add_option("--threads", a.threads, "Numbers of threads (default: 1,2, or 1 on a machine with one core)")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 1024));
+    bench->add_flag("--quick", a.quick, "Some seconds instead of some minutes");
+    bench->add_flag("--json", a.json, "Print everything that was measured as one JSON object");
+    bench->final_callback([&a, &status] { status = cli::bench(a); });
+}
+
 } // namespace
 
 scene::Scene SceneArguments::load() const {
@@ -104,6 +123,9 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
     RenderArguments render;
     std::string size = "1280x720";
     add_render(app, render, size, gui, status);
+
+    BenchArguments bench;
+    add_bench(app, bench, status);
 
     std::vector<std::string> files;
     auto* validate_command = app.add_subcommand("validate", "Check scene files and say what is wrong with them");

@@ -45,6 +45,12 @@ struct RunArguments {
     bool hash = false, json = false;
 };
 
+struct BenchArguments {
+    std::vector<int> sizes, threads; ///< empty: the usual ones
+    std::string filter;
+    bool quick = false, json = false;
+};
+
 /// What needs a GUI, given by the program that has one. Each returns the exit status.
 struct GuiCommands {
     std::function<int(const LabArguments&)> lab;
@@ -54,6 +60,7 @@ struct GuiCommands {
 int run_program(int argc, const char* const* argv, const GuiCommands& gui);
 
 int run(const RunArguments& arguments);
+int bench(const BenchArguments& arguments);
 int validate(const std::vector<std::string>& files);
 int list(const std::string& what, bool json);
 

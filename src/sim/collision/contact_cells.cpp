@@ -26,36 +26,20 @@ void sort_by_bucket(SelfCollisionWork<Real>& work, std::size_t buckets) {
         work.order[work.bucket_end[work.bucket[k]]++] = static_cast<std::uint32_t>(k);
 }
 
-/// Where the pairs are found to be too many, it is not tried again for so many steps.
-constexpr int steps_without_pairs = 64;
-
-template <class Real>
-CellPassArguments<Real> all_buckets(const Model<Real>& model, State<Real>& state, SelfCollisionWork<Real>& s) {
-    return {state.position.axes(),
-            s.sorted.axes(),
-            std::as_const(s.sorted_cells).axes(),
-            s.order.data(),
-            s.bucket_end.data(),
-            0,
-            std::bit_ceil(state.position.size()),
-            model.pinned.data(),
-            Real(2) * model.thickness,
-            static_cast<Real>(model.substeps)};
-}
-
 } // namespace
 
 template <class Real>
-void sort_into_cells(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work) {
+std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
     SelfCollisionWork<Real>& s = work.self_collision;
+    Vec3Array<Real>& position = state.position;
     const std::size_t count = position.size();
     const std::size_t buckets = std::bit_ceil(count);
-    CellArguments<Real> cells{position.axes(), count, {model.cell_x, model.cell_y, model.cell_z}};
-    s.sorted_bound = static_cast<double>(
+    CellArguments<Real> cells{std::as_const(position).axes(), count, {model.cell_x, model.cell_y, model.cell_z}};
+    const auto bound = static_cast<double>(
         work.kernels->buckets(cells, static_cast<std::uint32_t>(buckets - 1), s.bucket.data()));
     sort_by_bucket(s, buckets);
 
-    const ConstAxes<Real> x = position.axes();
+    const Axes<Real> x = position.axes();
     const Axes<Real> sorted = s.sorted.axes();
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t k = 0; k < count; ++k)
@@ -66,30 +50,19 @@ void sort_into_cells(const Model<Real>& model, const Vec3Array<Real>& position, 
     cells.x = std::as_const(s.sorted).axes();
     cells.count = s.sorted.size();
     work.kernels->cells(cells, s.sorted_cells.axes());
-}
 
-template <class Real>
-bool find_pairs_in_cells(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
-    SelfCollisionWork<Real>& s = work.self_collision;
-    if (s.without_pairs > 0) {
-        --s.without_pairs;
-        return false;
-    }
-    const double reach = reach_of(model, s.sorted_bound);
-    const std::size_t most = most_pairs(state.position.size());
-    s.pairs.resize(most);
-    const std::size_t found =
-        work.kernels->cell_pairs(all_buckets(model, state, s), static_cast<Real>(reach * reach * (1 + 1e-6)),
-                                 s.pairs.data(), most);
-    s.pairs.resize(std::min(found, most));
-    if (found > most)
-        s.without_pairs = steps_without_pairs;
-    return found <= most;
-}
-
-template <class Real>
-std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
-    const CellPassArguments<Real> all = all_buckets(model, state, work.self_collision);
+    const double reach = reach_of(model, bound);
+    const CellPassArguments<Real> all{x,
+                                      sorted,
+                                      std::as_const(s.sorted_cells).axes(),
+                                      s.order.data(),
+                                      s.bucket_end.data(),
+                                      0,
+                                      buckets,
+                                      model.pinned.data(),
+                                      Real(2) * model.thickness,
+                                      static_cast<Real>(reach * reach * (1 + 1e-6)),
+                                      static_cast<Real>(model.substeps)};
     const int threads = work.pool ? work.choice.threads() : 1;
     if (threads == 1)
         return work.kernels->cell_pass(all);
@@ -106,12 +79,7 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     return std::accumulate(work.counts.begin(), work.counts.begin() + threads, std::size_t{0});
 }
 
-#define CLOTHLAB_DEFINE(Real)                                                                                          \
-    template void sort_into_cells<Real>(const Model<Real>&, const Vec3Array<Real>&, Workspace<Real>&);                 \
-    template bool find_pairs_in_cells<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);                       \
-    template std::size_t resolve_in_cells<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);
-CLOTHLAB_DEFINE(float)
-CLOTHLAB_DEFINE(double)
-#undef CLOTHLAB_DEFINE
+template std::size_t resolve_in_cells<float>(const Model<float>&, State<float>&, Workspace<float>&);
+template std::size_t resolve_in_cells<double>(const Model<double>&, State<double>&, Workspace<double>&);
 
 } // namespace clothlab::sim

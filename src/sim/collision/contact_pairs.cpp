@@ -1,9 +1,10 @@
 #include "sim/collision/contact_pairs.h"
 
 #include <bit>
-#include <cmath>
 #include <span>
 #include <utility>
+
+#include "sim/collision/push_sum.h"
 
 namespace clothlab::sim {
 namespace {
@@ -25,31 +26,6 @@ void sort_few(std::span<std::uint32_t> values) {
             values[at] = values[at - 1];
         values[at] = value;
     }
-}
-
-template <class Real>
-std::size_t push(Vec3Array<Real>& x, std::uint32_t i, std::span<const std::uint32_t> partners, Real apart,
-                 Real substeps) {
-    Real sum_x = 0, sum_y = 0, sum_z = 0;
-    int count = 0;
-    for (const std::uint32_t q : partners) {
-        const Real dx = x.x[i] - x.x[q], dy = x.y[i] - x.y[q], dz = x.z[i] - x.z[q];
-        const Real length = std::sqrt(dx * dx + dy * dy + dz * dz);
-        if (!(length < apart) || length == 0)
-            continue;
-        const Real share = (apart - length) / length;
-        sum_x += share * dx;
-        sum_y += share * dy;
-        sum_z += share * dz;
-        ++count;
-    }
-    if (count == 0)
-        return 0;
-    const Real share = static_cast<Real>(count) * substeps;
-    x.x[i] += sum_x / share;
-    x.y[i] += sum_y / share;
-    x.z[i] += sum_z / share;
-    return static_cast<std::size_t>(count);
 }
 
 } // namespace
@@ -77,6 +53,7 @@ std::size_t resolve_pairs(const Model<Real>& model, State<Real>& state, SelfColl
     }
 
     const Real apart = Real(2) * model.thickness, substeps = static_cast<Real>(model.substeps);
+    Vec3Array<Real>& x = state.position;
     std::size_t pushes = 0;
     begin = 0;
     for (std::size_t k = 0; k < points; ++k) {
@@ -86,7 +63,11 @@ std::size_t resolve_pairs(const Model<Real>& model, State<Real>& state, SelfColl
         if (model.pinned[i])
             continue;
         sort_few(partners);
-        pushes += push<Real>(state.position, i, partners, apart, substeps);
+        PushSum<Real> sum;
+        for (const std::uint32_t q : partners)
+            sum.add(x.x[i] - x.x[q], x.y[i] - x.y[q], x.z[i] - x.z[q], apart);
+        sum.move(x.x[i], x.y[i], x.z[i], substeps);
+        pushes += sum.count();
     }
     return pushes;
 }

@@ -16,7 +16,7 @@ namespace clothlab::sim {
 /// skin when it was made, and is made anew when points have moved against each other by more than the skin. That is
 /// measured by the box around all displacements, so that a cloth that falls or flies as a whole keeps its list. The
 /// list is empty as long as the cloth is not folded. Where folds make it long, or motion makes it short-lived, it is left
-/// for some time, and find_pairs_in_cells does the work.
+/// for some time, and resolve_in_cells does the work.
 template <class Real>
 bool find_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work);
 
@@ -26,7 +26,7 @@ bool find_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Works
 template <class Real>
 double reach_of(const Model<Real>& model, double coordinate_bound);
 
-/// More pairs than these are better pushed apart cell by cell.
+/// More pairs of neighbours than these are better pushed apart cell by cell.
 constexpr std::size_t most_pairs(std::size_t points) {
     return points + 64;
 }

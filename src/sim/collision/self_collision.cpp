@@ -88,12 +88,8 @@ std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state,
         return 0; // no two points are nearer than that
     if (!work.kernels)
         return resolve_plainly(model, state, work.self_collision);
-    SelfCollisionWork<Real>& s = work.self_collision;
     if (find_pairs(model, state.position, work))
-        return resolve_pairs(model, state, s);
-    sort_into_cells(model, state.position, work);
-    if (find_pairs_in_cells(model, state, work))
-        return resolve_pairs(model, state, s);
+        return resolve_pairs(model, state, work.self_collision);
     return resolve_in_cells(model, state, work);
 }
 
@@ -102,7 +98,7 @@ void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work) {
     const std::size_t points = model.grid->points();
     SelfCollisionWork<Real>& s = work.self_collision;
     s.anchored = false;
-    s.without_list = s.without_list_next = s.without_pairs = 0;
+    s.without_list = s.without_list_next = 0;
     if (!work.kernels) {
         s.cell.resize(points);
         s.lists.first.resize(std::bit_ceil(points));

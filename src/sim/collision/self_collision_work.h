@@ -32,7 +32,6 @@ struct SelfCollisionWork {
     int age = 0;                 ///< steps since the list was made
     int without_list = 0;        ///< steps to be done without it, since it was too long or did not last
     int without_list_next = 0;   ///< how many the next time
-    int without_pairs = 0;       ///< steps to be done cell by cell, since the pairs were too many
     std::vector<PointPair> far_pairs; ///< the list: none that are neighbours in the grid
 
     // Few contacts: pair by pair.
@@ -44,7 +43,6 @@ struct SelfCollisionWork {
     // Many: points sorted by hash bucket of their cell. Also used, by cell, while the list is made.
     std::vector<std::uint32_t> bucket, order, bucket_end;
     Vec3Array<Real> sorted, sorted_cells;
-    double sorted_bound = 0; ///< m, largest coordinate
 };
 
 } // namespace clothlab::sim

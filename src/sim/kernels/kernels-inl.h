@@ -54,8 +54,7 @@ const Kernels<Real>* table() {
         keep_pairs<Real>,
                                            buckets<Real>,
                                            cells<Real>,
-                                           cell_pass<Real>,
-        cell_pairs<Real>};
+                                           cell_pass<Real>};
     return &kernels;
 }
 #endif

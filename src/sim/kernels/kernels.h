@@ -147,7 +147,8 @@ struct CellPassArguments {
     const std::uint32_t* bucket_end;       ///< per bucket; it begins where the one before ends
     std::size_t first_bucket, last_bucket; ///< half open
     const std::uint8_t* pinned;            ///< per point
-    Real apart;                            ///< m, twice the thickness
+    Real apart;         ///< m, twice the thickness
+    Real reach_squared; ///< m²: points that are not nearer at the beginning do not get nearer than `apart`
     Real substeps;
 };
 
@@ -175,10 +176,6 @@ struct Kernels {
     void (*cells)(const CellArguments<Real>&, Axes<Real> cells);
     /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
     std::size_t (*cell_pass)(const CellPassArguments<Real>&);
-    /// Only finds the pairs of points in the same cell that are not at least `reach` apart; returns how many there are,
-    /// most_pairs + 1 when there are more than most_pairs.
-    std::size_t (*cell_pairs)(const CellPassArguments<Real>&, Real reach_squared, PointPair* pairs,
-                              std::size_t most_pairs);
 };
 
 /// The kernels of a set that is_supported(); null for `scalar`, which has none.

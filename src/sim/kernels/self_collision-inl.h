@@ -10,6 +10,7 @@
 #include <bit>
 #include <limits>
 
+#include "sim/collision/push_sum.h"
 #include "sim/kernels/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -244,108 +245,112 @@ std::size_t keep_pairs(const CellArguments<Real>& a, Real reach_squared, PointPa
     return kept;
 }
 
-/// The pushes on the point at (x, y, z) in a cell from the sorted points `first`, `first + 1`, ...: added to `sum` one
-/// by one in their order, as the plain loop does. Returns how many.
+/// Pushes that are to be looked at, in order: of sorted point `of` by sorted point `by`. Whole numbers in Real, as vector
+/// instructions put them together.
 template <class Real>
-HWY_INLINE int add_pushes(const Lane3<Real>& others, const ConstAxes<Real>& cells, std::size_t first,
-                          const Lane3<Real>& x, const Lane3<Real>& cell, Real apart, Real (&sum)[3]) {
+struct Pushes {
+    static constexpr std::size_t room = 1024, most = room - 2 * HWY_LANES(Real);
+    HWY_ALIGN Real of[room], by[room];
+    std::size_t count = 0;
+};
+
+/// Finds which points of a bucket may be pushed by which, without a branch for each: points of the same cell that are
+/// near each other before any is moved. False when the room did not suffice.
+template <class Real>
+HWY_INLINE bool find_pushes(const CellPassArguments<Real>& a, std::size_t begin, std::size_t end, Pushes<Real>& out) {
     const Tag<Real> d;
-    const Lane3<Real> v = subtract3(x, others);
-    const auto square = dot3(v, v);
-    const auto reach = hn::Set(d, apart);
-    const Lane3<Real> c = load3(cells, static_cast<std::ptrdiff_t>(first));
-    const auto same = hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z));
-    const auto length = hn::Sqrt(square);
-    const auto near = hn::And(same, hn::And(hn::Lt(length, reach), hn::Gt(length, hn::Zero(d))));
-    if (hn::AllFalse(d, near))
-        return 0;
-    const Lane3<Real> push = scale3<Real>(hn::Div(hn::Sub(reach, length), length), v);
-    HWY_ALIGN Real pushes[3][HWY_LANES(Real)];
-    hn::Store(push.x, d, pushes[0]);
-    hn::Store(push.y, d, pushes[1]);
-    hn::Store(push.z, d, pushes[2]);
-    std::uint32_t bits = bits_of<Real>(near);
-    const int count = std::popcount(bits);
-    for (; bits != 0; bits &= bits - 1) {
-        const int l = std::countr_zero(bits);
-        sum[0] += pushes[0][l];
-        sum[1] += pushes[1][l];
-        sum[2] += pushes[2][l];
+    const ConstAxes<Real> sorted{a.sorted[0], a.sorted[1], a.sorted[2]};
+    const auto reach = hn::Set(d, a.reach_squared);
+    for (std::size_t k = begin; k < end; ++k) {
+        const Lane3<Real> x = set3(sorted[0][k], sorted[1][k], sorted[2][k]);
+        const Lane3<Real> cell = set3(a.cells[0][k], a.cells[1][k], a.cells[2][k]);
+        const auto own = hn::Set(d, static_cast<Real>(k));
+        for (std::size_t first = begin; first < end; first += HWY_LANES(Real)) {
+            if (HWY_UNLIKELY(out.count > Pushes<Real>::most))
+                return false;
+            // What lies behind the bucket is of another cell.
+            const auto at = static_cast<std::ptrdiff_t>(first);
+            const Lane3<Real> v = subtract3(x, load3(sorted, at)), c = load3(a.cells, at);
+            const auto same = hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z));
+            const auto others = hn::Iota(d, static_cast<Real>(first));
+            const auto near = hn::AndNot(hn::Or(hn::Eq(others, own), hn::Ge(dot3(v, v), reach)), same);
+            hn::StoreU(own, d, out.of + out.count);
+            hn::StoreU(hn::Compress(others, near), d, out.by + out.count);
+            out.count += hn::CountTrue(d, near);
+        }
     }
-    return count;
+    return true;
 }
 
-/// One bucket after the other, each point in index order, against all points of its bucket, where they are by then. A
-/// bucket may hold several cells; only points of the same cell push each other, and so each pair counts once.
+/// Moves a sorted point, and the point it stands for, unless it is pinned. Returns the number of pushes.
+template <class Real>
+HWY_INLINE std::size_t move_sorted(const CellPassArguments<Real>& a, std::size_t k, const PushSum<Real>& sum) {
+    const std::uint32_t i = a.order[k];
+    if (a.pinned[i])
+        return 0;
+    sum.move(a.sorted[0][k], a.sorted[1][k], a.sorted[2][k], a.substeps);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        a.x[axis][i] = a.sorted[axis][k];
+    return sum.count();
+}
+
+/// Moves the points as the pushes say, one after the other. Returns how many really were near enough.
+template <class Real>
+std::size_t apply_pushes(const CellPassArguments<Real>& a, const Pushes<Real>& pushes) {
+    const auto& [x, y, z] = a.sorted;
+    std::size_t total = 0;
+    for (std::size_t at = 0; at < pushes.count;) {
+        const Real of = pushes.of[at];
+        const auto k = static_cast<std::size_t>(of);
+        PushSum<Real> sum;
+        do {
+            const auto q = static_cast<std::size_t>(pushes.by[at]);
+            sum.add(x[k] - x[q], y[k] - y[q], z[k] - z[q], a.apart);
+        } while (++at < pushes.count && pushes.of[at] == of);
+        total += move_sorted(a, k, sum);
+    }
+    return total;
+}
+
+/// A bucket as the plain loop does it: for those with very many points.
+template <class Real>
+HWY_NOINLINE std::size_t crowded_bucket(const CellPassArguments<Real>& a, std::size_t begin, std::size_t end) {
+    const auto& [x, y, z] = a.sorted;
+    std::size_t total = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+        PushSum<Real> sum;
+        for (std::size_t q = begin; q < end; ++q)
+            if (q != k && a.cells[0][q] == a.cells[0][k] && a.cells[1][q] == a.cells[1][k] &&
+                a.cells[2][q] == a.cells[2][k])
+                sum.add(x[k] - x[q], y[k] - y[q], z[k] - z[q], a.apart);
+        total += move_sorted(a, k, sum);
+    }
+    return total;
+}
+
+/// A bucket may hold several cells; only points of the same cell push each other, and so each pair counts once.
 template <class Real>
 std::size_t cell_pass(const CellPassArguments<Real>& a) {
-    const Tag<Real> d;
-    constexpr std::size_t step = HWY_LANES(Real);
-    const ConstAxes<Real> sorted{a.sorted[0], a.sorted[1], a.sorted[2]};
-    std::size_t pairs = 0;
+    Pushes<Real> pushes;
+    std::size_t total = 0;
     std::size_t begin = a.first_bucket == 0 ? 0 : a.bucket_end[a.first_bucket - 1];
     for (std::size_t bucket = a.first_bucket; bucket < a.last_bucket; ++bucket) {
         const std::size_t end = a.bucket_end[bucket];
-        const std::size_t count = end - begin;
-        // Up to a vector of points stay in registers while they are moved.
-        Lane3<Real> held = load3(sorted, static_cast<std::ptrdiff_t>(begin));
-        for (std::size_t k = begin; k < end && count > 1; ++k) {
-            const std::uint32_t i = a.order[k];
-            if (a.pinned[i])
-                continue;
-            const Lane3<Real> x = set3(sorted[0][k], sorted[1][k], sorted[2][k]);
-            const Lane3<Real> cell = set3(a.cells[0][k], a.cells[1][k], a.cells[2][k]);
-            Real sum[3] = {};
-            int pushes = 0;
-            if (count <= step)
-                pushes = add_pushes<Real>(held, a.cells, begin, x, cell, a.apart, sum);
-            else
-                for (std::size_t first = begin; first < end; first += step)
-                    pushes += add_pushes<Real>(load3(sorted, static_cast<std::ptrdiff_t>(first)), a.cells, first, x,
-                                               cell, a.apart, sum);
-            if (pushes == 0)
-                continue;
-            const Real share = static_cast<Real>(pushes) * a.substeps;
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                a.x[axis][i] = a.sorted[axis][k] += sum[axis] / share;
-            if (count <= step) {
-                const auto own = hn::Eq(hn::Iota(d, Real(0)), hn::Set(d, static_cast<Real>(k - begin)));
-                held = choose3<Real>(own, set3(sorted[0][k], sorted[1][k], sorted[2][k]), held);
-            }
-            pairs += static_cast<std::size_t>(pushes);
-        }
-        begin = end;
-    }
-    return pairs;
-}
-
-template <class Real>
-std::size_t cell_pairs(const CellPassArguments<Real>& a, Real reach_squared, PointPair* pairs, std::size_t most_pairs) {
-    const Tag<Real> d;
-    const ConstAxes<Real> sorted{a.sorted[0], a.sorted[1], a.sorted[2]};
-    const auto reach = hn::Set(d, reach_squared);
-    std::size_t count = 0;
-    std::size_t k = a.first_bucket == 0 ? 0 : a.bucket_end[a.first_bucket - 1];
-    for (std::size_t bucket = a.first_bucket; bucket < a.last_bucket; ++bucket)
-        for (const std::size_t end = a.bucket_end[bucket]; k < end; ++k) {
-            const Lane3<Real> x = set3(sorted[0][k], sorted[1][k], sorted[2][k]);
-            const Lane3<Real> cell = set3(a.cells[0][k], a.cells[1][k], a.cells[2][k]);
-            for (std::size_t q = k + 1; q < end; q += HWY_LANES(Real)) {
-                // What lies behind the bucket is of another cell.
-                const Lane3<Real> v = subtract3(x, load3(sorted, static_cast<std::ptrdiff_t>(q)));
-                const Lane3<Real> c = load3(a.cells, static_cast<std::ptrdiff_t>(q));
-                const auto same = hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z));
-                const auto near = hn::AndNot(hn::Ge(dot3(v, v), reach), same);
-                if (HWY_LIKELY(hn::AllFalse(d, near)))
-                    continue;
-                for (std::uint32_t bits = bits_of<Real>(near); bits != 0; bits &= bits - 1) {
-                    if (count == most_pairs)
-                        return count + 1;
-                    pairs[count++] = {a.order[k], a.order[q + static_cast<std::size_t>(std::countr_zero(bits))]};
+        if (end - begin > 1) {
+            const std::size_t before = pushes.count;
+            if (HWY_UNLIKELY(!find_pushes(a, begin, end, pushes))) {
+                pushes.count = before;
+                total += apply_pushes(a, pushes);
+                pushes.count = 0;
+                if (!find_pushes(a, begin, end, pushes)) {
+                    pushes.count = 0;
+                    total += crowded_bucket(a, begin, end);
                 }
             }
         }
-    return count;
+        begin = end;
+    }
+    return total + apply_pushes(a, pushes);
 }
 
 } // namespace clothlab::sim::HWY_NAMESPACE

@@ -72,9 +72,10 @@ std::size_t first_over_limit(const LimitArguments<Real>& a, std::size_t from, st
     return a.points;
 }
 
-/// A vector of points, of which some springs may be over the limit, gone through one by one.
+/// A vector of points, of which some springs may be over the limit, gone through one by one: those with a bit set, by
+/// stencil entry.
 template <class Real>
-HWY_NOINLINE std::size_t limit_vector(const LimitArguments<Real>& a, std::size_t i, const MayBeOver<Real>& over) {
+HWY_INLINE std::size_t limit_vector(const LimitArguments<Real>& a, std::size_t i, const MayBeOver<Real>& over) {
     constexpr std::size_t step = HWY_LANES(Real);
     const std::uint32_t bits[stencil_size] = {bits_of<Real>(over.up),          bits_of<Real>(over.left),
                                               bits_of<Real>(over.upper_left),  bits_of<Real>(over.upper_right),

@@ -140,10 +140,18 @@ HWY_INLINE LaneMask<Real> lanes_before(std::ptrdiff_t count) {
 /// One bit per lane.
 template <class Real>
 HWY_INLINE std::uint32_t bits_of(LaneMask<Real> mask) {
-    const Tag<Real> d;
+#if HWY_TARGET == HWY_AVX3
+    return static_cast<std::uint32_t>(mask.raw);
+#elif HWY_TARGET == HWY_AVX2
+    if constexpr (sizeof(Real) == 4)
+        return static_cast<std::uint32_t>(_mm256_movemask_ps(mask.raw));
+    else
+        return static_cast<std::uint32_t>(_mm256_movemask_pd(mask.raw));
+#else
     std::uint8_t bytes[8] = {}; // the function may write as many
-    hn::StoreMaskBits(d, mask, bytes);
-    return static_cast<std::uint32_t>(bytes[0] | (bytes[1] << 8)) & ((1u << lanes<Real>)-1u);
+    hn::StoreMaskBits(Tag<Real>(), mask, bytes);
+    return bytes[0] & ((1u << lanes<Real>)-1u);
+#endif
 }
 
 /// Follows the column of each lane along the flat array, to tell which neighbours there are.
