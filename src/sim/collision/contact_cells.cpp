@@ -11,19 +11,25 @@
 namespace clothlab::sim {
 namespace {
 
-/// Counting sort of all points by bucket: `order`, and where each bucket ends. Points of a bucket stay ascending.
+/// Counting sort of all points by bucket: `order`, `sorted` and where each bucket ends. Points of a bucket stay
+/// ascending.
 template <class Real>
-void sort_by_bucket(SelfCollisionWork<Real>& work, std::size_t buckets) {
-    const std::size_t count = work.bucket.size();
+void sort_by_bucket(const Vec3Array<Real>& position, SelfCollisionWork<Real>& work, std::size_t buckets) {
+    const std::size_t count = position.size();
     std::fill_n(work.bucket_end.begin(), buckets, 0u);
-    for (std::size_t k = 0; k < count; ++k)
-        ++work.bucket_end[work.bucket[k]];
+    for (std::size_t i = 0; i < count; ++i)
+        ++work.bucket_end[work.bucket[i]];
     std::uint32_t begin = 0;
     for (std::size_t b = 0; b < buckets; ++b)
         begin += std::exchange(work.bucket_end[b], begin);
     // What is now each bucket's beginning moves on to its end.
-    for (std::size_t k = 0; k < count; ++k)
-        work.order[work.bucket_end[work.bucket[k]]++] = static_cast<std::uint32_t>(k);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t k = work.bucket_end[work.bucket[i]]++;
+        work.order[k] = static_cast<std::uint32_t>(i);
+        work.sorted.x[k] = position.x[i];
+        work.sorted.y[k] = position.y[i];
+        work.sorted.z[k] = position.z[i];
+    }
 }
 
 } // namespace
@@ -37,13 +43,8 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     CellArguments<Real> cells{std::as_const(position).axes(), count, {model.cell_x, model.cell_y, model.cell_z}};
     const auto bound = static_cast<double>(
         work.kernels->buckets(cells, static_cast<std::uint32_t>(buckets - 1), s.bucket.data()));
-    sort_by_bucket(s, buckets);
-
-    const Axes<Real> x = position.axes();
-    const Axes<Real> sorted = s.sorted.axes();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t k = 0; k < count; ++k)
-            sorted[axis][k] = x[axis][s.order[k]];
+    sort_by_bucket(position, s, buckets);
+    const Axes<Real> x = position.axes(), sorted = s.sorted.axes();
     // Behind the last point lie points of no cell.
     for (std::size_t axis = 0; axis < 3; ++axis)
         std::fill(sorted[axis] + count, sorted[axis] + s.sorted.size(), std::numeric_limits<Real>::quiet_NaN());

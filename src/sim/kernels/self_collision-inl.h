@@ -255,31 +255,56 @@ struct Pushes {
 };
 
 /// Finds which points of a bucket may be pushed by which, without a branch for each: points of the same cell that are
-/// near each other before any is moved. False when the room did not suffice.
-template <class Real>
+/// near each other before any is moved. False when the room did not suffice. One vector of points is the usual bucket,
+/// and one cell what is usually in it.
+template <bool one_vector, bool one_cell, class Real>
 HWY_INLINE bool find_pushes(const CellPassArguments<Real>& a, std::size_t begin, std::size_t end, Pushes<Real>& out) {
     const Tag<Real> d;
     const ConstAxes<Real> sorted{a.sorted[0], a.sorted[1], a.sorted[2]};
-    const auto reach = hn::Set(d, a.reach_squared);
+    const auto reach = hn::Set(d, a.reach_squared), first_lanes = hn::Iota(d, static_cast<Real>(begin));
+    const auto in_bucket = lanes_before<Real>(static_cast<std::ptrdiff_t>(end - begin));
+    const Lane3<Real> first_points = load3(sorted, static_cast<std::ptrdiff_t>(begin)),
+                      first_cells = load3(a.cells, static_cast<std::ptrdiff_t>(begin));
+    std::size_t count = out.count;
     for (std::size_t k = begin; k < end; ++k) {
         const Lane3<Real> x = set3(sorted[0][k], sorted[1][k], sorted[2][k]);
-        const Lane3<Real> cell = set3(a.cells[0][k], a.cells[1][k], a.cells[2][k]);
         const auto own = hn::Set(d, static_cast<Real>(k));
-        for (std::size_t first = begin; first < end; first += HWY_LANES(Real)) {
-            if (HWY_UNLIKELY(out.count > Pushes<Real>::most))
+        std::size_t first = begin;
+        do {
+            if (HWY_UNLIKELY(count > Pushes<Real>::most))
                 return false;
-            // What lies behind the bucket is of another cell.
             const auto at = static_cast<std::ptrdiff_t>(first);
-            const Lane3<Real> v = subtract3(x, load3(sorted, at)), c = load3(a.cells, at);
-            const auto same = hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z));
-            const auto others = hn::Iota(d, static_cast<Real>(first));
+            const Lane3<Real> v = subtract3(x, one_vector ? first_points : load3(sorted, at));
+            const auto others = one_vector ? first_lanes : hn::Iota(d, static_cast<Real>(first));
+            // What lies behind the bucket is of another cell.
+            LaneMask<Real> same = in_bucket;
+            if constexpr (!one_cell) {
+                const Lane3<Real> c = one_vector ? first_cells : load3(a.cells, at);
+                const Lane3<Real> cell = set3(a.cells[0][k], a.cells[1][k], a.cells[2][k]);
+                same = hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z));
+            }
             const auto near = hn::AndNot(hn::Or(hn::Eq(others, own), hn::Ge(dot3(v, v), reach)), same);
-            hn::StoreU(own, d, out.of + out.count);
-            hn::StoreU(hn::Compress(others, near), d, out.by + out.count);
-            out.count += hn::CountTrue(d, near);
-        }
+            hn::StoreU(own, d, out.of + count);
+            hn::StoreU(hn::Compress(others, near), d, out.by + count);
+            count += static_cast<std::size_t>(std::popcount(bits_of<Real>(near)));
+            first += HWY_LANES(Real);
+        } while (!one_vector && first < end);
     }
+    out.count = count;
     return true;
+}
+
+template <class Real>
+HWY_INLINE bool find_pushes(const CellPassArguments<Real>& a, std::size_t begin, std::size_t end, Pushes<Real>& out) {
+    if (HWY_UNLIKELY(end - begin > HWY_LANES(Real)))
+        return find_pushes<false, false>(a, begin, end, out);
+    const Tag<Real> d;
+    const Lane3<Real> c = load3(a.cells, static_cast<std::ptrdiff_t>(begin));
+    const Lane3<Real> cell = set3(a.cells[0][begin], a.cells[1][begin], a.cells[2][begin]);
+    const auto same = hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z));
+    if (HWY_LIKELY(hn::CountTrue(d, same) == end - begin))
+        return find_pushes<true, true>(a, begin, end, out);
+    return find_pushes<true, false>(a, begin, end, out);
 }
 
 /// Moves a sorted point, and the point it stands for, unless it is pinned. Returns the number of pushes.

@@ -80,33 +80,39 @@ HWY_INLINE std::size_t limit_vector(const LimitArguments<Real>& a, std::size_t i
     const std::uint32_t bits[stencil_size] = {bits_of<Real>(over.up),          bits_of<Real>(over.left),
                                               bits_of<Real>(over.upper_left),  bits_of<Real>(over.upper_right),
                                               bits_of<Real>(over.two_left),    bits_of<Real>(over.two_up)};
-    SpringSet todo[step + 2] = {};
-    std::uint32_t points = 0;
-    for (std::size_t s = 0; s < stencil_size; ++s) {
-        points |= bits[s];
-        for (std::uint32_t left = bits[s]; left != 0; left &= left - 1)
-            todo[std::countr_zero(left)] |= 1u << s;
-    }
+    const auto over_limit = [&](std::uint32_t l) {
+        SpringSet springs = 0;
+        for (std::uint32_t s = 0; s < stencil_size; ++s)
+            springs |= (bits[s] >> l & 1u) << s;
+        return springs;
+    };
     const std::uint32_t all = static_cast<std::uint32_t>((1u << HWY_MIN(a.points - i, step)) - 1u);
     const bool short_rows = a.columns < step + 3;
     std::size_t count = 0;
-    for (; points != 0; points &= points - 1) {
-        const auto l = static_cast<std::size_t>(std::countr_zero(points));
-        const SpringSet done = limit_point(a, i + l, todo[l]);
+    // What corrections make necessary at the next two points.
+    SpringSet next = 0, second = 0;
+    std::uint32_t last = 0;
+    for (std::uint32_t points = bits_of<Real>(over.any()); points != 0; points &= points - 1) {
+        const auto l = static_cast<std::uint32_t>(std::countr_zero(points));
+        SpringSet todo = over_limit(l) | (l == last + 1 ? next : l == last + 2 ? second : 0);
+        next = l == last + 1 ? second : 0;
+        second = 0;
+        last = l;
+        if (short_rows && count != 0)
+            todo = all_springs; // a correction may have moved any point that these springs tie
+        const SpringSet done = limit_point(a, i + l, todo);
         if (done == 0)
             continue;
         count += static_cast<std::size_t>(std::popcount(done));
         if (short_rows) {
-            for (std::size_t later = l + 1; later < step; ++later)
-                todo[later] = all_springs;
             points |= all & (~1u << l);
             continue;
         }
         // What moved is this point and the other ends of `done`: which springs of the next two points end there?
         constexpr SpringSet up = 1, left = 2, upper_left = 4, upper_right = 8, two_left = 16;
-        todo[l + 1] |= left | ((done & up) != 0 ? upper_left : 0) | ((done & left) != 0 ? two_left : 0) |
-                       ((done & upper_right) != 0 ? up : 0);
-        todo[l + 2] |= two_left | ((done & upper_right) != 0 ? upper_left : 0);
+        next |= left | ((done & up) != 0 ? upper_left : 0) | ((done & left) != 0 ? two_left : 0) |
+                ((done & upper_right) != 0 ? up : 0);
+        second = two_left | ((done & upper_right) != 0 ? upper_left : 0);
         points |= all & (6u << l);
     }
     return count;
