@@ -13,42 +13,56 @@ namespace {
 constexpr double skin_share = 1;
 /// A list that does not last so many steps costs more than it saves; then it is left for some steps, and for twice as
 /// many every next time.
-constexpr int least_age = 16, least_without = 64, most_without = 1024;
+constexpr int least_age = 6, least_without = 32, most_without = 512;
 
-/// Cells of a box around all points, not more than most_cells(), each at least `size` wide: x fastest.
+/// Cells of a box around all points, not more than most_cells(), each at least `size` wide and a little more, for the
+/// rounding in Real: x fastest.
 template <class Real>
 struct Box {
     Box(const Vec3Array<Real>& position, double size) {
         const auto axes = position.axes();
+        std::array<double, 3> extent;
+        double bound_so_far = 0;
+        bool finite = true;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            Real low = axes[axis][0], high = low, zero = 0;
+            Real low = axes[axis][0], high = low;
+            bool inside = true;
             for (std::size_t i = 0; i < position.size(); ++i) {
-                low = std::min(low, axes[axis][i]);
-                high = std::max(high, axes[axis][i]);
-                zero += axes[axis][i] * 0; // not if it is infinite or NaN
+                const Real v = axes[axis][i];
+                low = v < low ? v : low;
+                high = v > high ? v : high;
+                inside &= std::abs(v) <= std::numeric_limits<Real>::max(); // neither infinite nor NaN
             }
-            finite = finite && zero == 0;
-            from[axis] = static_cast<double>(low);
-            extent[axis] = static_cast<double>(high) - from[axis];
-            bound = std::max({bound, std::abs(from[axis]), std::abs(static_cast<double>(high))});
+            finite = finite && inside;
+            from[axis] = low;
+            extent[axis] = static_cast<double>(high) - static_cast<double>(low);
+            bound_so_far = std::max({bound_so_far, std::abs(static_cast<double>(low)),
+                                     std::abs(static_cast<double>(high))});
         }
-        for (usable = finite && bound < 1e6 * size;; size *= 1.25) {
+        bound = bound_so_far;
+        usable = finite && bound < 1e5 * size;
+        size *= 1.01;
+        const auto cells = [&](double cell) {
             double total = 1;
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                total *= std::floor(extent[axis] / size) + 1;
-            if (!usable || total <= static_cast<double>(most_cells(position.size())))
-                break;
-        }
-        per_metre = 1 / size;
+            for (const double e : extent)
+                total *= std::floor(e / cell) + 2;
+            return total;
+        };
+        while (usable && cells(size) > static_cast<double>(most_cells(position.size())))
+            size *= 1.1;
+        per_metre = static_cast<Real>(1 / size);
         for (std::size_t axis = 0; axis < 3; ++axis)
-            count[axis] = usable ? static_cast<std::uint32_t>(extent[axis] * per_metre) + 1 : 1;
+            count[axis] = usable ? static_cast<std::uint32_t>(extent[axis] / size) + 2 : 1;
     }
-    std::uint32_t along(std::size_t axis, Real v) const {
-        return std::min(static_cast<std::uint32_t>((static_cast<double>(v) - from[axis]) * per_metre), count[axis] - 1);
+    std::uint32_t cell(Real x, Real y, Real z) const {
+        const auto along = [&](std::size_t axis, Real v) {
+            return static_cast<std::uint32_t>(static_cast<std::int32_t>((v - from[axis]) * per_metre));
+        };
+        return (along(2, z) * count[1] + along(1, y)) * count[0] + along(0, x);
     }
-    std::array<double, 3> from{}, extent{};
-    double bound = 0, per_metre = 0;
-    bool finite = true;
+    std::array<Real, 3> from{};
+    Real per_metre = 0;
+    double bound = 0;    ///< m, largest coordinate
     bool usable = false; ///< finite, and small enough for whole numbers
     std::array<std::uint32_t, 3> count{};
 };
@@ -69,11 +83,10 @@ bool list_far_pairs(const Model<Real>& model, const Vec3Array<Real>& position, W
     // Counting sort by cell.
     const std::size_t cells = std::size_t{box.count[0]} * box.count[1] * box.count[2];
     std::fill_n(s.bucket_end.begin(), cells, 0u);
-    for (std::size_t i = 0; i < points; ++i) {
-        s.bucket[i] = (box.along(2, position.z[i]) * box.count[1] + box.along(1, position.y[i])) * box.count[0] +
-                      box.along(0, position.x[i]);
+    for (std::size_t i = 0; i < points; ++i)
+        s.bucket[i] = box.cell(position.x[i], position.y[i], position.z[i]);
+    for (std::size_t i = 0; i < points; ++i)
         ++s.bucket_end[s.bucket[i]];
-    }
     std::uint32_t begin = 0;
     for (std::size_t c = 0; c < cells; ++c)
         begin += std::exchange(s.bucket_end[c], begin);

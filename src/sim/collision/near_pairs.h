@@ -32,11 +32,11 @@ constexpr std::size_t most_pairs(std::size_t points) {
 }
 /// A list longer than this costs more than it saves.
 constexpr std::size_t most_far_pairs(std::size_t points) {
-    return points / 4 + 64;
+    return points + 64;
 }
 /// Into how many cells at most points are sorted to make the list.
 constexpr std::size_t most_cells(std::size_t points) {
-    return 2 * points;
+    return 2 * points + 64;
 }
 
 #define CLOTHLAB_DECLARE(Real)                                                                                         \
