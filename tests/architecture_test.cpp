@@ -26,7 +26,7 @@ const std::vector<Layer>& layers() {
         {"sim/", {"sim/"}, {"Eigen/", "hwy/"}},
         {"scene/", {"scene/", "sim/"}, {"nlohmann/"}},
         {"timeline/", {"timeline/", "sim/"}, {}},
-        {"experiments/", {"experiments/", "scene/", "sim/"}, {}},
+        {"experiments/", {"experiments/", "scene/", "sim/"}, {"hwy/"}},
         {"render/", {"render/", "sim/"}, {"glad/", "glm/", "stb/", "stb_"}},
         {"ui/",
          {"ui/", "experiments/", "timeline/", "scene/", "sim/"},

@@ -1,0 +1,178 @@
+// The bench on tiny cloths: its rows are complete and agree with each other. No time is expected of it.
+#include <algorithm>
+#include <catch2/catch_message.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <set>
+
+#include "experiments/bench.h"
+#include "experiments/bench_cases.h"
+#include "scene/io.h"
+#include "sim/execution.h"
+#include "support/files.h"
+
+using namespace clothlab;
+using namespace clothlab::test;
+using namespace clothlab::experiments;
+
+namespace {
+
+BenchConfig tiny(const std::string& filter = "") {
+    BenchConfig config;
+    config.pinned = scene::load_scene(checkout() / "scenes/two-pins.json").simulation;
+    config.falling = scene::load_scene(checkout() / "scenes/self-collision.json").simulation;
+    config.sizes = {8, 12};
+    config.threads = {1, 2};
+    config.filter = filter;
+    config.quick = true;
+    return config;
+}
+
+void require_consistent(const Measured& m) {
+    REQUIRE(m.min >= 0);
+    REQUIRE(m.min <= m.median);
+    REQUIRE(m.median <= m.max);
+}
+
+void require_consistent(const BenchGroup& group, const BenchRow& row) {
+    INFO(group.name << " " << group.n << " " << row.kernel << " " << row.threads);
+    REQUIRE(row.rounds % 2 == 1);
+    REQUIRE(row.steps >= 3);
+    require_consistent(row.step);
+    require_consistent(row.forces_and_verlet);
+    double fastest_stages = 0;
+    for (const Measured& stage : row.stages) {
+        require_consistent(stage);
+        fastest_stages += stage.min;
+    }
+    REQUIRE(row.forces_and_verlet.min > 0);
+    REQUIRE(fastest_stages <= row.step.min); // holds in every round, so for the minima
+    REQUIRE(row.speedup > 0);
+    REQUIRE(row.forces_speedup > 0);
+    REQUIRE(row.forces_to_full_step);
+    REQUIRE(*row.forces_to_full_step > 0);
+    REQUIRE(row.ns_per_point > 0);
+    REQUIRE(row.springs_per_s > 0);
+    REQUIRE(row.fma_share > 0);
+    REQUIRE(row.bandwidth_share > 0);
+    REQUIRE(row.bandwidth_level == "L1");
+    REQUIRE(row.bytes_per_point > 6 * sizeof(float));
+}
+
+} // namespace
+
+TEST_CASE("The bench times every kernel that this machine has, in every case and size, beside the textbook") {
+    BenchConfig config = tiny();
+    std::vector<std::string> said;
+    config.progress = [&](const std::string& what) { said.push_back(what); };
+    const BenchTable table = run_bench(config);
+    REQUIRE(table.groups.size() == 6);
+    REQUIRE(said.size() == 8); // the machine, each group, and the machine again
+    REQUIRE(table.machine.with(2).threads == 2);
+    for (const BenchGroup& group : table.groups) {
+        const auto n = static_cast<std::size_t>(group.n);
+        REQUIRE(group.points == n * n);
+        REQUIRE(group.springs == 2 * n * (n - 1) + 2 * (n - 1) * (n - 1) + 2 * n * (n - 2));
+        REQUIRE(group.rows.front().kernel == textbook_name);
+        REQUIRE(group.textbook().speedup == 1);
+        std::set<std::string> kernels;
+        for (const BenchRow& row : group.rows) {
+            kernels.insert(row.kernel);
+            require_consistent(group, row);
+        }
+        for (const sim::InstructionSet set :
+             {sim::InstructionSet::scalar, sim::InstructionSet::avx2, sim::InstructionSet::avx512}) {
+            const std::string name(sim::instruction_sets()[static_cast<std::size_t>(set)].name);
+            REQUIRE(kernels.count(name) == (sim::is_supported(set) ? 1u : 0u));
+        }
+        for (const sim::Precision precision : {sim::Precision::single_precision, sim::Precision::double_precision}) {
+            REQUIRE(group.find(table.best_kernel, precision, 1));
+            REQUIRE_FALSE(group.find(table.best_kernel, precision, 3));
+        }
+    }
+    REQUIRE(table.summary.empty()); // it is about other sizes
+}
+
+TEST_CASE("Runs of the same precision that are timed together do the same steps") {
+    BenchConfig config = tiny("falling");
+    config.sizes = {24};
+    const BenchTable table = run_bench(config);
+    REQUIRE(table.groups.size() == 1);
+    const BenchRow& textbook = table.groups.front().textbook();
+    REQUIRE(textbook.self_contacts > 0);
+    for (const BenchRow& row : table.groups.front().rows) {
+        if (row.precision != textbook.precision || row.steps != textbook.steps)
+            continue;
+        INFO(row.kernel << " " << row.threads);
+        REQUIRE(row.self_contacts == textbook.self_contacts);
+        REQUIRE(row.contacts == textbook.contacts);
+        REQUIRE(row.shortened_springs == textbook.shortened_springs);
+    }
+}
+
+TEST_CASE("A filter leaves the runs it matches, and the textbook's to compare them with") {
+    const BenchTable table = run_bench(tiny("^(springs|falling)/8/single/scalar"));
+    REQUIRE(table.groups.size() == 2);
+    for (const BenchGroup& group : table.groups) {
+        REQUIRE(group.n == 8);
+        REQUIRE(group.name != "pinned");
+        REQUIRE(group.rows.size() == 2);
+        REQUIRE(group.rows[1].kernel == "scalar");
+        REQUIRE(group.rows[1].precision == sim::Precision::single_precision);
+        REQUIRE_FALSE(group.rows[1].forces_to_full_step); // without the pinned case
+    }
+    REQUIRE(run_bench(tiny("pinned/12/.*textbook")).groups.front().rows.size() == 1);
+    REQUIRE_THROWS_AS(run_bench(tiny("(")), BenchFilterError);
+    REQUIRE_THROWS_AS(run_bench(tiny("velvet")), BenchFilterError);
+}
+
+TEST_CASE("Cases keep the mass of a point, shrink the thickness with the distance of points and move the pins along") {
+    BenchConfig config = tiny();
+    config.sizes = {25, 100};
+    const std::vector<BenchCase> cases = bench_cases(config);
+    REQUIRE(cases.size() == 7);
+    for (const BenchCase& c : cases) {
+        const sim::Description& original = c.name.rfind("falling", 0) == 0 ? config.falling : config.pinned;
+        const double finer = c.description.cloth.num_width_points / 50.0;
+        const bool as_it_is = c.name == "falling-thick";
+        const double mass = sim::point_mass(original.cloth) / (as_it_is ? finer * finer : 1);
+        REQUIRE(std::abs(sim::point_mass(c.description.cloth) / mass - 1) < 1e-12);
+        const double thickness = original.cloth.thickness / (as_it_is ? 1 : finer);
+        REQUIRE(std::abs(c.description.cloth.thickness / thickness - 1) < 1e-12);
+        REQUIRE(c.frames > 0);
+        for (const sim::GridPoint& pin : c.description.cloth.pinned)
+            REQUIRE((pin[0] == 0 || pin[0] == c.description.cloth.num_width_points - 1));
+    }
+}
+
+TEST_CASE("The summary has the figures that the rows allow") {
+    const auto table_of = [](std::initializer_list<int> sizes) {
+        BenchTable table;
+        table.best_kernel = "best";
+        table.machine.by_threads = {ThreadPeak{.threads = 1}};
+        for (const int n : sizes) {
+            BenchGroup group;
+            group.name = "falling";
+            group.n = n;
+            group.rows.resize(2);
+            group.rows[0].kernel = textbook_name;
+            group.rows[1].kernel = "best";
+            group.rows[1].precision = sim::Precision::single_precision;
+            group.rows[1].speedup = 12;
+            group.rows[1].step.median = 1e-3;
+            group.rows[1].ns_per_point = n;
+            table.groups.push_back(group);
+        }
+        return table;
+    };
+    REQUIRE(summarise(table_of({8})).empty());
+    const std::vector<BenchFigure> one = summarise(table_of({50}));
+    REQUIRE(one.size() == 1);
+    REQUIRE(one.front().value == 12);
+    REQUIRE(one.front().at_least == 10.0);
+    const std::vector<BenchFigure> both = summarise(table_of({50, 512}));
+    REQUIRE(both.size() == 3);
+    REQUIRE(both[1].value == 1000);
+    REQUIRE(both[1].unit == "steps/s");
+    REQUIRE(both[2].value == 512 / 50.0);
+    REQUIRE(both[2].at_most == 1.5);
+}
