@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "sim/kernels/kernels.h"
 #include "sim/model.h"
@@ -35,49 +36,63 @@ constexpr bool may_filter_limit(Real rest) {
 using SpringSet = std::uint32_t;
 inline constexpr SpringSet all_springs = (1u << stencil_size) - 1;
 
+/// The sweep at one spring, point i's own of stencil entry s. Returns whether it was shortened.
+template <std::size_t s, class Real>
+inline bool limit_spring(const LimitArguments<Real>& arguments, std::size_t i, std::size_t column) {
+    constexpr SpringStencil spring = spring_stencil[s];
+    const auto& [x, y, z] = arguments.x;
+    if constexpr (spring.columns < 0)
+        if (column < static_cast<std::size_t>(-spring.columns))
+            return false;
+    if constexpr (spring.columns > 0)
+        if (column + 1 == arguments.columns)
+            return false;
+    constexpr auto rows = static_cast<std::size_t>(-spring.rows);
+    if (i < rows * arguments.columns)
+        return false;
+    const std::size_t b = i - rows * arguments.columns + static_cast<std::size_t>(spring.columns);
+    const Real dx = x[b] - x[i], dy = y[b] - y[i], dz = z[b] - z[i];
+    const Real square = dx * dx + dy * dy + dz * dz;
+    const Real rest = arguments.rest.of[s][i & arguments.rest.mask];
+    if (arguments.filter && square <= rest * rest * limit_filter<Real>)
+        return false;
+    const Real length = std::sqrt(square);
+    const Real longest = static_cast<Real>(stretch_limit) * rest;
+    if (!(length > longest))
+        return false;
+    const bool a_pinned = arguments.pinned[i] != 0, b_pinned = arguments.pinned[b] != 0;
+    if (a_pinned && b_pinned)
+        return false;
+    const Real whole = (length - longest) / length;
+    const Real share = a_pinned || b_pinned ? whole : Real(0.5) * whole;
+    if (!a_pinned) {
+        x[i] += share * dx;
+        y[i] += share * dy;
+        z[i] += share * dz;
+    }
+    if (!b_pinned) {
+        x[b] -= share * dx;
+        y[b] -= share * dy;
+        z[b] -= share * dz;
+    }
+    return true;
+}
+
 /// The sweep at one point, for the springs of `todo` and those that come after one it shortened. Returns those it
-/// shortened.
+/// shortened. Each spring has code of its own, so that the processor learns how likely each is to be shortened.
 template <class Real>
 inline SpringSet limit_point(const LimitArguments<Real>& arguments, std::size_t i, SpringSet todo = all_springs) {
-    const auto& [x, y, z] = arguments.x;
-    const auto columns = static_cast<std::ptrdiff_t>(arguments.columns);
-    const auto column = static_cast<std::ptrdiff_t>(static_cast<std::uint32_t>(i) % arguments.columns);
+    const std::size_t column = static_cast<std::uint32_t>(i) % static_cast<std::uint32_t>(arguments.columns);
     SpringSet shortened = 0;
-    while (todo != 0) {
-        const auto s = static_cast<std::size_t>(std::countr_zero(todo));
-        todo &= todo - 1;
-        const SpringStencil& spring = spring_stencil[s];
-        const std::ptrdiff_t other = static_cast<std::ptrdiff_t>(i) + spring.rows * columns + spring.columns;
-        if (column + spring.columns < 0 || column + spring.columns >= columns || other < 0)
-            continue;
-        const auto b = static_cast<std::size_t>(other);
-        const Real dx = x[b] - x[i], dy = y[b] - y[i], dz = z[b] - z[i];
-        const Real square = dx * dx + dy * dy + dz * dz;
-        const Real rest = arguments.rest.of[s][i & arguments.rest.mask];
-        if (arguments.filter && square <= rest * rest * limit_filter<Real>)
-            continue;
-        const Real length = std::sqrt(square);
-        const Real longest = static_cast<Real>(stretch_limit) * rest;
-        if (!(length > longest))
-            continue;
-        const bool a_pinned = arguments.pinned[i] != 0, b_pinned = arguments.pinned[b] != 0;
-        if (a_pinned && b_pinned)
-            continue;
-        const Real whole = (length - longest) / length;
-        const Real share = a_pinned || b_pinned ? whole : Real(0.5) * whole;
-        if (!a_pinned) {
-            x[i] += share * dx;
-            y[i] += share * dy;
-            z[i] += share * dz;
-        }
-        if (!b_pinned) {
-            x[b] -= share * dx;
-            y[b] -= share * dy;
-            z[b] -= share * dz;
-        }
-        shortened |= 1u << s;
-        todo |= all_springs & (~1u << s);
-    }
+    const auto each = [&]<std::size_t... s>(std::index_sequence<s...>) {
+        (..., [&] {
+            if ((todo & (1u << s)) == 0 || !limit_spring<s>(arguments, i, column))
+                return;
+            shortened |= 1u << s;
+            todo = all_springs;
+        }());
+    };
+    each(std::make_index_sequence<stencil_size>());
     return shortened;
 }
 
