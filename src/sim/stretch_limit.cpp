@@ -20,9 +20,9 @@ std::size_t first_over_limit(const Model<Real>& model, Workspace<Real>& work, co
 template <class Real>
 std::size_t limit_stretch(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
     const Grid<Real>& grid = *model.grid;
-    const LimitArguments<Real> arguments{state.position.axes(), grid.points(), static_cast<std::size_t>(grid.columns),
-                                         rest_lengths(grid), model.pinned.data(),
-                                         may_filter_limit(grid.shortest) && may_filter_limit(grid.longest)};
+    const LimitArguments<Real> arguments{
+        state.position.axes(), grid.points(),       static_cast<std::size_t>(grid.columns),
+        rest_lengths(grid),    model.pinned.data(), may_filter_limit(grid.shortest) && may_filter_limit(grid.longest)};
     std::size_t shortened = 0;
     if (work.kernels && arguments.filter) {
         const bool look_first = work.limit_was_idle && work.pool && work.choice.threads() > 1;

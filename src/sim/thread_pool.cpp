@@ -8,8 +8,8 @@ namespace clothlab::sim {
 namespace {
 
 constexpr std::uint64_t count_bits = 16, count_mask = (1u << count_bits) - 1, quit = count_mask;
-/// Some fifty microseconds: as long as the stages that one thread does alone take in a small cloth. A sleeper takes about
-/// as long to wake.
+/// Some fifty microseconds: as long as the stages that one thread does alone take in a small cloth. A sleeper takes
+/// about as long to wake.
 constexpr int spins = 4000;
 
 /// Waits until the value is another than `old`; returns it.

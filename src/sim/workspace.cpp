@@ -36,9 +36,9 @@ std::size_t memory_bytes(const Workspace<Real>& work) {
     const SelfCollisionWork<Real>& s = work.self_collision;
     std::size_t bytes = work.force.bytes() + bytes_of(work.pin_previous) + bytes_of(work.proximity) +
                         bytes_of(work.counts) + s.cell.bytes() + bytes_of(s.lists.first) + bytes_of(s.lists.next) +
-                        s.anchor.bytes() + bytes_of(s.far_pairs) + bytes_of(s.pairs) + bytes_of(s.cursor) + bytes_of(s.active) + bytes_of(s.partners) +
-                        bytes_of(s.bucket) + bytes_of(s.order) + bytes_of(s.bucket_end) + s.sorted.bytes() +
-                        s.sorted_cells.bytes();
+                        s.anchor.bytes() + bytes_of(s.far_pairs) + bytes_of(s.pairs) + bytes_of(s.cursor) +
+                        bytes_of(s.active) + bytes_of(s.partners) + bytes_of(s.bucket) + bytes_of(s.order) +
+                        bytes_of(s.bucket_end) + bytes_of(s.sorted);
     for (const AlignedVector<Real>& scratch : work.sweep)
         bytes += bytes_of(scratch);
     return bytes;

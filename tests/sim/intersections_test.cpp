@@ -4,6 +4,7 @@
 #include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <vector>
@@ -86,6 +87,22 @@ std::vector<float> folded(int columns, int rows, std::uint64_t seed) {
     return positions;
 }
 
+/// Rolled up about one axis and folded in waves along the other, so that many layers cross.
+std::vector<float> crumpled(int columns, int rows, std::uint64_t seed, double scale) {
+    std::vector<float> positions;
+    sim::SplitMix64 random(seed);
+    const double turn = uniform(random, 0.25, 0.6), wave = uniform(random, 0.25, 0.6);
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const double a = turn * column, b = wave * row;
+            const sim::Vec3 r = uniform_point(random, -0.1, 0.1);
+            for (const double v : {std::sin(a) + r.x, std::cos(1.1 * a) * std::sin(b) + r.y, std::sin(1.3 * b) + r.z})
+                positions.push_back(static_cast<float>(scale * v));
+        }
+    }
+    return positions;
+}
+
 } // namespace
 
 TEST_CASE("A flat cloth does not pass through itself") {
@@ -126,6 +143,23 @@ TEST_CASE("Random clouds have as many intersections as brute force finds, at any
     }
 }
 
+TEST_CASE("Crumpled sheets of any proportions have as many intersections as brute force finds, with holes too") {
+    const double scale = GENERATE(1e-30, 1.0, 1e30);
+    for (const auto& [columns, rows] : {std::pair{2, 90}, {90, 2}, {3, 61}, {33, 17}, {16, 35}}) {
+        for (std::uint64_t seed = 0; seed < 2; ++seed) {
+            std::vector<float> positions = crumpled(columns, rows, seed, scale);
+            const std::size_t whole = brute_force(columns, rows, positions);
+            REQUIRE(whole > 20);
+            REQUIRE(sim::count_intersections(columns, rows, positions) == whole);
+            for (std::size_t i = seed; i < positions.size(); i += 50)
+                positions[i] = std::numeric_limits<float>::quiet_NaN();
+            const std::size_t left = brute_force(columns, rows, positions);
+            REQUIRE(left < whole);
+            REQUIRE(sim::count_intersections(columns, rows, positions) == left);
+        }
+    }
+}
+
 TEST_CASE("Positions that are not finite take part in no intersection") {
     std::vector<float> positions = folded(12, 9, 1);
     const std::size_t all = sim::count_intersections(12, 9, positions);
@@ -144,6 +178,9 @@ TEST_CASE("A cloth of which no triangle is finite but an edge is has no intersec
     REQUIRE(sim::count_intersections(2, 2, positions) == 0);
 }
 
-TEST_CASE("All points in one place have no intersection") {
-    REQUIRE(sim::count_intersections(10, 10, std::vector<float>(300, 0.25f)) == 0);
+TEST_CASE("All points in one place have no intersection, and many take no time for all pairs") {
+    for (const int side : {10, 500}) {
+        const auto values = static_cast<std::size_t>(3 * side * side);
+        REQUIRE(sim::count_intersections(side, side, std::vector<float>(values, 0.25f)) == 0);
+    }
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -26,9 +25,11 @@ void sort_by_bucket(const Vec3Array<Real>& position, SelfCollisionWork<Real>& wo
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t k = work.bucket_end[work.bucket[i]]++;
         work.order[k] = static_cast<std::uint32_t>(i);
-        work.sorted.x[k] = position.x[i];
-        work.sorted.y[k] = position.y[i];
-        work.sorted.z[k] = position.z[i];
+        Real* sorted = work.sorted.data() + 4 * std::size_t{k};
+        sorted[0] = position.x[i];
+        sorted[1] = position.y[i];
+        sorted[2] = position.z[i];
+        sorted[3] = 0;
     }
 }
 
@@ -40,27 +41,21 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     Vec3Array<Real>& position = state.position;
     const std::size_t count = position.size();
     const std::size_t buckets = std::bit_ceil(count);
-    CellArguments<Real> cells{std::as_const(position).axes(), count, {model.cell_x, model.cell_y, model.cell_z}};
-    const auto bound = static_cast<double>(
-        work.kernels->buckets(cells, static_cast<std::uint32_t>(buckets - 1), s.bucket.data()));
+    const std::array<Real, 3> cell{model.cell_x, model.cell_y, model.cell_z};
+    const auto bound = static_cast<double>(work.kernels->buckets(
+        {std::as_const(position).axes(), count, cell}, static_cast<std::uint32_t>(buckets - 1), s.bucket.data()));
     sort_by_bucket(position, s, buckets);
-    const Axes<Real> x = position.axes(), sorted = s.sorted.axes();
-    // Behind the last point lie points of no cell.
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        std::fill(sorted[axis] + count, sorted[axis] + s.sorted.size(), std::numeric_limits<Real>::quiet_NaN());
-    cells.x = std::as_const(s.sorted).axes();
-    cells.count = s.sorted.size();
-    work.kernels->cells(cells, s.sorted_cells.axes());
 
     const double reach = reach_of(model, bound);
-    const CellPassArguments<Real> all{x,
-                                      sorted,
-                                      std::as_const(s.sorted_cells).axes(),
+    const CellPassArguments<Real> all{position.axes(),
+                                      s.sorted.data(),
                                       s.order.data(),
                                       s.bucket_end.data(),
+                                      s.bucket.data(), // no longer needed
                                       0,
                                       buckets,
                                       model.pinned.data(),
+                                      cell,
                                       Real(2) * model.thickness,
                                       static_cast<Real>(reach * reach * (1 + 1e-6)),
                                       static_cast<Real>(model.substeps)};

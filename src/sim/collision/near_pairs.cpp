@@ -36,8 +36,8 @@ struct Box {
             finite = finite && inside;
             from[axis] = low;
             extent[axis] = static_cast<double>(high) - static_cast<double>(low);
-            bound_so_far = std::max({bound_so_far, std::abs(static_cast<double>(low)),
-                                     std::abs(static_cast<double>(high))});
+            bound_so_far =
+                std::max({bound_so_far, std::abs(static_cast<double>(low)), std::abs(static_cast<double>(high))});
         }
         bound = bound_so_far;
         usable = finite && bound < 1e5 * size;
@@ -90,19 +90,27 @@ bool list_far_pairs(const Model<Real>& model, const Vec3Array<Real>& position, W
     std::uint32_t begin = 0;
     for (std::size_t c = 0; c < cells; ++c)
         begin += std::exchange(s.bucket_end[c], begin);
+    const std::size_t room = s.sorted.size() / 4;
+    const Axes<Real> sorted{s.sorted.data(), s.sorted.data() + room, s.sorted.data() + 2 * room};
+    Real* index = s.sorted.data() + 3 * room;
     for (std::uint32_t i = 0; i < points; ++i) {
         const std::uint32_t k = s.bucket_end[s.bucket[i]]++;
         s.order[k] = i;
-        s.sorted.x[k] = position.x[i];
-        s.sorted.y[k] = position.y[i];
-        s.sorted.z[k] = position.z[i];
-        s.sorted_cells.x[k] = static_cast<Real>(i);
+        sorted[0][k] = position.x[i];
+        sorted[1][k] = position.y[i];
+        sorted[2][k] = position.z[i];
+        index[k] = static_cast<Real>(i);
     }
 
     s.far_pairs.resize(most_far_pairs(points));
-    const std::size_t found = work.kernels->far_pairs({std::as_const(s.sorted).axes(), s.order.data(),
-                                                       s.sorted_cells.x.data(), s.bucket_end.data(), box.count, static_cast<std::uint32_t>(model.grid->columns),
-                                                       static_cast<Real>(most * most), s.far_pairs.data(),
+    const std::size_t found = work.kernels->far_pairs({{sorted[0], sorted[1], sorted[2]},
+                                                       s.order.data(),
+                                                       index,
+                                                       s.bucket_end.data(),
+                                                       box.count,
+                                                       static_cast<std::uint32_t>(model.grid->columns),
+                                                       static_cast<Real>(most * most),
+                                                       s.far_pairs.data(),
                                                        s.far_pairs.size()});
     const bool all_found = found <= s.far_pairs.size();
     s.far_pairs.resize(all_found ? found : 0);
@@ -131,8 +139,18 @@ Proximity look_at_neighbours(const Model<Real>& model, const Vec3Array<Real>& po
     const int ranges = for_ranges(model, work, [&](int index, std::size_t begin, std::size_t end) {
         // Each thread has a part of the list that is in proportion to its points.
         ProximityArguments<Real>& part = work.proximity[static_cast<std::size_t>(index)];
-        part = {position.axes(), anchor, position.size(), static_cast<std::size_t>(model.grid->columns), begin, end,
-                reach_squared, s.pairs.data() + begin, end - begin, {}, {}, 0};
+        part = {position.axes(),
+                anchor,
+                position.size(),
+                static_cast<std::size_t>(model.grid->columns),
+                begin,
+                end,
+                reach_squared,
+                s.pairs.data() + begin,
+                end - begin,
+                {},
+                {},
+                0};
         work.kernels->proximity(part);
     });
     Proximity result;
@@ -144,8 +162,8 @@ Proximity look_at_neighbours(const Model<Real>& model, const Vec3Array<Real>& po
         const ProximityArguments<Real>& part = work.proximity[static_cast<std::size_t>(r)];
         result.too_many = result.too_many || part.count > part.most_pairs;
         if (!result.too_many)
-            count = static_cast<std::size_t>(
-                std::copy(part.pairs, part.pairs + part.count, s.pairs.data() + count) - s.pairs.data());
+            count = static_cast<std::size_t>(std::copy(part.pairs, part.pairs + part.count, s.pairs.data() + count) -
+                                             s.pairs.data());
         for (std::size_t axis = 0; axis < 3; ++axis) {
             low[axis] = std::min(low[axis], static_cast<double>(part.low[axis]));
             high[axis] = std::max(high[axis], static_cast<double>(part.high[axis]));

@@ -7,16 +7,16 @@
 
 namespace clothlab::sim {
 
-/// Sets work.self_collision.pairs to all pairs that the rule could concern: near enough at the beginning of the stage to
-/// touch in the course of it, and in the same cell. False, without pairs, where this way of finding them does not pay or
-/// the positions are not finite.
+/// Sets work.self_collision.pairs to all pairs that the rule could concern: near enough at the beginning of the stage
+/// to touch in the course of it, and in the same cell. False, without pairs, where this way of finding them does not
+/// pay or the positions are not finite.
 ///
 /// Pairs of neighbours in the grid are tested in every step, a vector at a time. All other pairs are on a list with a
 /// skin (L. Verlet, Physical Review 159 (1967), section II.B): it holds those that were nearer than the reach plus the
 /// skin when it was made, and is made anew when points have moved against each other by more than the skin. That is
 /// measured by the box around all displacements, so that a cloth that falls or flies as a whole keeps its list. The
-/// list is empty as long as the cloth is not folded. Where folds make it long, or motion makes it short-lived, it is left
-/// for some time, and resolve_in_cells does the work.
+/// list is empty as long as the cloth is not folded. Where folds make it long, or motion makes it short-lived, it is
+/// left for some time, and resolve_in_cells does the work.
 template <class Real>
 bool find_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work);
 

@@ -11,8 +11,8 @@ namespace clothlab::sim {
 template <class Real>
 class PushSum {
 public:
-    /// A partner at x - (dx, dy, dz). Pairs out of reach and coincident ones count as nothing: they add zero to sums that
-    /// are never -0.
+    /// A partner at x - (dx, dy, dz). Pairs out of reach and coincident ones count as nothing: they add zero to sums
+    /// that are never -0.
     void add(Real dx, Real dy, Real dz, Real apart) {
         const Real length = std::sqrt(dx * dx + dy * dy + dz * dz);
         const bool touching = static_cast<int>(length < apart) & static_cast<int>(length > 0);

@@ -114,9 +114,7 @@ void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work) {
     s.bucket.resize(points);
     s.order.resize(points);
     s.bucket_end.resize(std::max(std::bit_ceil(points), most_cells(points) + 1));
-    const std::size_t with_spare = points + CacheLineAllocator<Real>::spare / sizeof(Real);
-    s.sorted.resize(with_spare);
-    s.sorted_cells.resize(with_spare);
+    s.sorted.resize(4 * (points + CacheLineAllocator<Real>::spare / sizeof(Real)));
 }
 
 template std::size_t resolve_self_collision<float>(const Model<float>&, State<float>&, Workspace<float>&);

@@ -26,12 +26,12 @@ struct SelfCollisionWork {
     // each other by more than the skin since, a pair that is not on the list is out of reach.
     Vec3Array<Real> anchor;
     bool anchored = false;
-    double skin = 0;             ///< m
-    double anchor_bound = 0;     ///< m, largest coordinate of the anchor
-    double coordinate_bound = 1; ///< m, no coordinate is expected to be larger
-    int age = 0;                 ///< steps since the list was made
-    int without_list = 0;        ///< steps to be done without it, since it was too long or did not last
-    int without_list_next = 0;   ///< how many the next time
+    double skin = 0;                  ///< m
+    double anchor_bound = 0;          ///< m, largest coordinate of the anchor
+    double coordinate_bound = 1;      ///< m, no coordinate is expected to be larger
+    int age = 0;                      ///< steps since the list was made
+    int without_list = 0;             ///< steps to be done without it, since it was too long or did not last
+    int without_list_next = 0;        ///< how many the next time
     std::vector<PointPair> far_pairs; ///< the list: none that are neighbours in the grid
 
     // Few contacts: pair by pair.
@@ -42,7 +42,7 @@ struct SelfCollisionWork {
 
     // Many: points sorted by hash bucket of their cell. Also used, by cell, while the list is made.
     std::vector<std::uint32_t> bucket, order, bucket_end;
-    Vec3Array<Real> sorted, sorted_cells;
+    AlignedVector<Real> sorted; ///< four values per point
 };
 
 } // namespace clothlab::sim

@@ -50,10 +50,9 @@ const Kernels<Real>* table() {
                                            first_over_limit<Real>,
                                            limit<Real>,
                                            proximity<Real>,
-        far_pairs<Real>,
-        keep_pairs<Real>,
+                                           far_pairs<Real>,
+                                           keep_pairs<Real>,
                                            buckets<Real>,
-                                           cells<Real>,
                                            cell_pass<Real>};
     return &kernels;
 }

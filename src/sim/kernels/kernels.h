@@ -118,14 +118,14 @@ struct ProximityArguments {
 /// those that are neighbours in the grid (diagonal ones too).
 template <class Real>
 struct FarPairArguments {
-    ConstAxes<Real> sorted; ///< positions by cell, x fastest; a vector of padding behind
-    const std::uint32_t* order; ///< point of each sorted entry
-    const Real* index;          ///< the same as Real
-    const std::uint32_t* cell_end;   ///< per cell; it begins where the one before ends
+    ConstAxes<Real> sorted;             ///< positions by cell, x fastest; a vector of padding behind
+    const std::uint32_t* order;         ///< point of each sorted entry
+    const Real* index;                  ///< the same as Real
+    const std::uint32_t* cell_end;      ///< per cell; it begins where the one before ends
     std::array<std::uint32_t, 3> cells; ///< along x, y, z
-    std::uint32_t columns;           ///< of the grid
-    Real reach_squared;              ///< m²
-    PointPair* pairs;                ///< out
+    std::uint32_t columns;              ///< of the grid
+    Real reach_squared;                 ///< m²
+    PointPair* pairs;                   ///< out
     std::size_t most_pairs;
 };
 
@@ -140,14 +140,15 @@ struct CellArguments {
 /// The course's self-collision among points that lie sorted by cell.
 template <class Real>
 struct CellPassArguments {
-    Axes<Real> x;                          ///< of all points; moved
-    Axes<Real> sorted;                     ///< positions by bucket, moved along; a vector of padding behind
-    ConstAxes<Real> cells;                 ///< cell coordinates by bucket; NaN behind
-    const std::uint32_t* order;            ///< point of each sorted entry
-    const std::uint32_t* bucket_end;       ///< per bucket; it begins where the one before ends
+    Axes<Real> x;                    ///< of all points; moved
+    Real* sorted;                    ///< x, y, z, 0 of each point by bucket, moved along; four vectors more behind
+    const std::uint32_t* order;      ///< point of each sorted entry
+    const std::uint32_t* bucket_end; ///< per bucket; it begins where the one before ends
+    std::uint32_t* scratch;          ///< per sorted entry
     std::size_t first_bucket, last_bucket; ///< half open
     const std::uint8_t* pinned;            ///< per point
-    Real apart;         ///< m, twice the thickness
+    std::array<Real, 3> cell;              ///< m
+    Real apart;                            ///< m, twice the thickness
     Real reach_squared; ///< m²: points that are not nearer at the beginning do not get nearer than `apart`
     Real substeps;
 };
@@ -172,8 +173,6 @@ struct Kernels {
     std::size_t (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
     /// Finds the hash bucket of each point's cell, out of mask + 1, a power of two. Returns the largest coordinate.
     Real (*buckets)(const CellArguments<Real>&, std::uint32_t mask, std::uint32_t* bucket);
-    /// Finds the cells of the points, whole numbers; the last vector is written whole.
-    void (*cells)(const CellArguments<Real>&, Axes<Real> cells);
     /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
     std::size_t (*cell_pass)(const CellPassArguments<Real>&);
 };

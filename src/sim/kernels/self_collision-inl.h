@@ -8,6 +8,7 @@
 #endif
 
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "sim/collision/push_sum.h"
@@ -114,8 +115,9 @@ std::size_t far_pairs(const FarPairArguments<Real>& a) {
                 const std::uint32_t cell_end = a.cell_end[row + x];
                 if (k == cell_end)
                     continue;
-                // Each pair is met once, at the point that comes first in the order: in what is left of its own cell and
-                // the one after, in the row after, and in the three of the layer after. Three cells along x are one run.
+                // Each pair is met once, at the point that comes first in the order: in what is left of its own cell
+                // and the one after, in the row after, and in the three of the layer after. Three cells along x are one
+                // run.
                 const std::uint32_t first = x > 0 ? x - 1 : 0, last = HWY_MIN(x + 1, nx - 1);
                 std::uint32_t from[5], to[5];
                 int runs = 1;
@@ -142,8 +144,8 @@ std::size_t far_pairs(const FarPairArguments<Real>& a) {
                             // The eight around it in the grid, or across the border from the end of one row to the
                             // beginning of the next.
                             const auto apart = hn::Abs(hn::Sub(hn::LoadU(d, a.index + q), index));
-                            const auto around =
-                                hn::Or(hn::Eq(apart, one), hn::And(hn::Ge(apart, row_before), hn::Le(apart, row_after)));
+                            const auto around = hn::Or(hn::Eq(apart, one),
+                                                       hn::And(hn::Ge(apart, row_before), hn::Le(apart, row_after)));
                             auto near = hn::And(hn::Le(dot3(v, v), reach),
                                                 lanes_before<Real>(static_cast<std::ptrdiff_t>(to[r] - q)));
                             if (HWY_LIKELY(!at_border))
@@ -154,7 +156,8 @@ std::size_t far_pairs(const FarPairArguments<Real>& a) {
                                 const std::uint32_t j = a.order[q + static_cast<std::uint32_t>(std::countr_zero(bits))];
                                 if (at_border) {
                                     const std::uint32_t to_column = j % a.columns;
-                                    const std::uint32_t rows = i > j ? i / a.columns - j / a.columns : j / a.columns - i / a.columns;
+                                    const std::uint32_t rows =
+                                        i > j ? i / a.columns - j / a.columns : j / a.columns - i / a.columns;
                                     if (rows <= 1 && to_column + 1 >= column && to_column <= column + 1)
                                         continue;
                                 }
@@ -185,14 +188,6 @@ template <class Real>
 HWY_INLINE Lane<Real> cell_of(Lane<Real> x, Real size) {
     const Tag<Real> d;
     return hn::Add(hn::Floor(hn::Div(x, hn::Set(d, size))), hn::Zero(d));
-}
-
-template <class Real>
-void cells(const CellArguments<Real>& a, Axes<Real> out) {
-    const Tag<Real> d;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real))
-            hn::StoreU(cell_of<Real>(hn::LoadU(d, a.x[axis] + k), a.cell[axis]), d, out[axis] + k);
 }
 
 template <class Real>
@@ -245,110 +240,202 @@ std::size_t keep_pairs(const CellArguments<Real>& a, Real reach_squared, PointPa
     return kept;
 }
 
-/// Pushes that are to be looked at, in order: of sorted point `of` by sorted point `by`. Whole numbers in Real, as vector
-/// instructions put them together.
+/// Pushes that are to be looked at, in order: of sorted point `of` by sorted point `by`. Whole numbers in Real, as
+/// vector instructions put them together.
 template <class Real>
 struct Pushes {
-    static constexpr std::size_t room = 1024, most = room - 2 * HWY_LANES(Real);
+    static constexpr std::size_t room = 4096, most = room - 2 * HWY_LANES(Real);
     HWY_ALIGN Real of[room], by[room];
     std::size_t count = 0;
 };
 
-/// Finds which points of a bucket may be pushed by which, without a branch for each: points of the same cell that are
-/// near each other before any is moved. False when the room did not suffice. One vector of points is the usual bucket,
-/// and one cell what is usually in it.
-template <bool one_vector, bool one_cell, class Real>
-HWY_INLINE bool find_pushes(const CellPassArguments<Real>& a, std::size_t begin, std::size_t end, Pushes<Real>& out) {
+/// A bucket's points as separate coordinates, and their cells.
+template <class Real>
+struct BucketPoints {
+    static constexpr std::size_t most = 256;
+    HWY_ALIGN Real x[most], y[most], z[most], cell_x[most], cell_y[most], cell_z[most];
+};
+
+/// Fills in the points; returns whether they are all of one cell. What lies behind the bucket is read, but not used.
+template <class Real>
+HWY_INLINE bool load_bucket(const CellPassArguments<Real>& a, std::size_t begin, std::size_t count,
+                            BucketPoints<Real>& out) {
     const Tag<Real> d;
-    const ConstAxes<Real> sorted{a.sorted[0], a.sorted[1], a.sorted[2]};
-    const auto reach = hn::Set(d, a.reach_squared), first_lanes = hn::Iota(d, static_cast<Real>(begin));
-    const auto in_bucket = lanes_before<Real>(static_cast<std::ptrdiff_t>(end - begin));
-    const Lane3<Real> first_points = load3(sorted, static_cast<std::ptrdiff_t>(begin)),
-                      first_cells = load3(a.cells, static_cast<std::ptrdiff_t>(begin));
-    std::size_t count = out.count;
-    for (std::size_t k = begin; k < end; ++k) {
-        const Lane3<Real> x = set3(sorted[0][k], sorted[1][k], sorted[2][k]);
-        const auto own = hn::Set(d, static_cast<Real>(k));
-        std::size_t first = begin;
-        do {
-            if (HWY_UNLIKELY(count > Pushes<Real>::most))
-                return false;
-            const auto at = static_cast<std::ptrdiff_t>(first);
-            const Lane3<Real> v = subtract3(x, one_vector ? first_points : load3(sorted, at));
-            const auto others = one_vector ? first_lanes : hn::Iota(d, static_cast<Real>(first));
-            // What lies behind the bucket is of another cell.
-            LaneMask<Real> same = in_bucket;
-            if constexpr (!one_cell) {
-                const Lane3<Real> c = one_vector ? first_cells : load3(a.cells, at);
-                const Lane3<Real> cell = set3(a.cells[0][k], a.cells[1][k], a.cells[2][k]);
-                same = hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z));
-            }
-            const auto near = hn::AndNot(hn::Or(hn::Eq(others, own), hn::Ge(dot3(v, v), reach)), same);
-            hn::StoreU(own, d, out.of + count);
-            hn::StoreU(hn::Compress(others, near), d, out.by + count);
-            count += static_cast<std::size_t>(std::popcount(bits_of<Real>(near)));
-            first += HWY_LANES(Real);
-        } while (!one_vector && first < end);
+    bool one_cell = true;
+    for (std::size_t k = 0; k < count; k += HWY_LANES(Real)) {
+        Lane3<Real> x;
+        Lane<Real> unused;
+        hn::LoadInterleaved4(d, a.sorted + 4 * (begin + k), x.x, x.y, x.z, unused);
+        const Lane3<Real> cell{cell_of<Real>(x.x, a.cell[0]), cell_of<Real>(x.y, a.cell[1]),
+                               cell_of<Real>(x.z, a.cell[2])};
+        store3(x, Axes<Real>{out.x, out.y, out.z}, static_cast<std::ptrdiff_t>(k));
+        store3(cell, Axes<Real>{out.cell_x, out.cell_y, out.cell_z}, static_cast<std::ptrdiff_t>(k));
+        const Lane3<Real> first = set3(out.cell_x[0], out.cell_y[0], out.cell_z[0]);
+        const auto same = hn::And(hn::And(hn::Eq(cell.x, first.x), hn::Eq(cell.y, first.y)), hn::Eq(cell.z, first.z));
+        const auto inside = lanes_before<Real>(static_cast<std::ptrdiff_t>(count - k));
+        one_cell = one_cell && hn::AllFalse(d, hn::AndNot(same, inside));
     }
-    out.count = count;
-    return true;
+    return one_cell;
 }
 
+/// Writes `own` and the lanes of `others` that the mask has, side by side. Returns how many.
 template <class Real>
-HWY_INLINE bool find_pushes(const CellPassArguments<Real>& a, std::size_t begin, std::size_t end, Pushes<Real>& out) {
-    if (HWY_UNLIKELY(end - begin > HWY_LANES(Real)))
-        return find_pushes<false, false>(a, begin, end, out);
-    const Tag<Real> d;
-    const Lane3<Real> c = load3(a.cells, static_cast<std::ptrdiff_t>(begin));
-    const Lane3<Real> cell = set3(a.cells[0][begin], a.cells[1][begin], a.cells[2][begin]);
-    const auto same = hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z));
-    if (HWY_LIKELY(hn::CountTrue(d, same) == end - begin))
-        return find_pushes<true, true>(a, begin, end, out);
-    return find_pushes<true, false>(a, begin, end, out);
+HWY_INLINE std::size_t add_pushes(LaneMask<Real> mask, Lane<Real> own, Lane<Real> others, Real* of, Real* by) {
+    std::uint32_t bits = bits_of<Real>(mask);
+#if HWY_TARGET == HWY_AVX3
+    // Not Highway's Compress: for double its version of 2022 looks up a table that GCC copies at every call.
+    hn::StoreU(own, Tag<Real>(), of);
+    if constexpr (sizeof(Real) == 4)
+        _mm512_storeu_ps(by, _mm512_maskz_compress_ps(mask.raw, others.raw));
+    else
+        _mm512_storeu_pd(by, _mm512_maskz_compress_pd(mask.raw, others.raw));
+    return static_cast<std::size_t>(std::popcount(bits));
+#else
+    const Real point = hn::GetLane(own), first = hn::GetLane(others);
+    std::size_t count = 0;
+    for (; bits != 0; bits &= bits - 1, ++count) {
+        of[count] = point;
+        by[count] = first + static_cast<Real>(std::countr_zero(bits));
+    }
+    return count;
+#endif
 }
+
+/// Finds which points of a bucket may be pushed by which, without a branch for each: points of the same cell that are
+/// near each other before any is moved. One vector of points is the usual bucket, and one cell what is usually in it.
+template <bool one_vector, bool one_cell, class Real>
+HWY_INLINE void find_pushes(const CellPassArguments<Real>& a, const BucketPoints<Real>& points, std::size_t begin,
+                            std::size_t size, Pushes<Real>& out) {
+    const Tag<Real> d;
+    const auto reach = hn::Set(d, a.reach_squared);
+    std::size_t count = out.count;
+    for (std::size_t k = 0; k < size; ++k) {
+        const Lane3<Real> x = set3(points.x[k], points.y[k], points.z[k]);
+        const auto own = hn::Set(d, static_cast<Real>(begin + k));
+        for (std::size_t first = 0; first < (one_vector ? 1 : size); first += HWY_LANES(Real)) {
+            const Lane3<Real> v =
+                subtract3(x, load3(ConstAxes<Real>{points.x, points.y, points.z}, static_cast<std::ptrdiff_t>(first)));
+            const auto others = hn::Iota(d, static_cast<Real>(begin + first));
+            auto same = lanes_before<Real>(static_cast<std::ptrdiff_t>(size - first));
+            if constexpr (!one_cell) {
+                const Lane3<Real> c = load3(ConstAxes<Real>{points.cell_x, points.cell_y, points.cell_z},
+                                            static_cast<std::ptrdiff_t>(first));
+                const Lane3<Real> cell = set3(points.cell_x[k], points.cell_y[k], points.cell_z[k]);
+                same = hn::And(same, hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z)));
+            }
+            const auto near = hn::AndNot(hn::Or(hn::Eq(others, own), hn::Ge(dot3(v, v), reach)), same);
+            count += add_pushes<Real>(near, own, others, out.of + count, out.by + count);
+        }
+    }
+    out.count = count;
+}
+
+/// The pushes on one sorted point, and where it goes, as PushSum has it. Three coordinates fit into a vector of four,
+/// which is faster where the machine has vectors so long and simple.
+template <class Real>
+class SortedPush {
+public:
+    SortedPush(const CellPassArguments<Real>& a, std::size_t k) : a_(a), k_(k) {}
+    HWY_INLINE void add(std::size_t q) {
+        const Real *x = a_.sorted + 4 * k_, *y = a_.sorted + 4 * q;
+        sum_.add(x[0] - y[0], x[1] - y[1], x[2] - y[2], a_.apart);
+    }
+    /// Moves the point and returns the number of pushes.
+    HWY_INLINE std::size_t move() {
+        Real* x = a_.sorted + 4 * k_;
+        sum_.move(x[0], x[1], x[2], a_.substeps);
+        return sum_.count();
+    }
+
+private:
+    const CellPassArguments<Real>& a_;
+    std::size_t k_;
+    PushSum<Real> sum_;
+};
+
+template <>
+class SortedPush<float> {
+    using D = hn::FixedTag<float, 4>;
+
+public:
+    HWY_INLINE SortedPush(const CellPassArguments<float>& a, std::size_t k)
+        : a_(a), at_(a.sorted + 4 * k), x_(hn::Load(D(), at_)), sum_(hn::Zero(D())), count_(hn::Zero(D())) {}
+    HWY_INLINE void add(std::size_t q) {
+        const D d;
+        const auto v = hn::Sub(x_, hn::Load(d, a_.sorted + 4 * q)), squares = hn::Mul(v, v);
+        const auto length =
+            hn::Sqrt(hn::Add(hn::Add(hn::Broadcast<0>(squares), hn::Broadcast<1>(squares)), hn::Broadcast<2>(squares)));
+        const auto apart = hn::Set(d, a_.apart);
+        const auto touching = hn::And(hn::Lt(length, apart), hn::Gt(length, hn::Zero(d)));
+        const auto push = hn::IfThenElseZero(touching, hn::Div(hn::Sub(apart, length), length));
+        sum_ = hn::Add(sum_, hn::Mul(push, v));
+        count_ = hn::Add(count_, hn::IfThenElseZero(touching, hn::Set(d, 1.0f)));
+    }
+    HWY_INLINE std::size_t move() {
+        const D d;
+        const auto share = hn::Mul(count_, hn::Set(d, a_.substeps));
+        hn::Store(hn::IfThenElse(hn::Gt(count_, hn::Zero(d)), hn::Add(x_, hn::Div(sum_, share)), x_), d, at_);
+        return static_cast<std::size_t>(hn::GetLane(count_));
+    }
+
+private:
+    const CellPassArguments<float>& a_;
+    float* at_;
+    hn::Vec<D> x_, sum_, count_;
+};
 
 /// Moves a sorted point, and the point it stands for, unless it is pinned. Returns the number of pushes.
 template <class Real>
-HWY_INLINE std::size_t move_sorted(const CellPassArguments<Real>& a, std::size_t k, const PushSum<Real>& sum) {
+HWY_INLINE std::size_t move_sorted(const CellPassArguments<Real>& a, std::size_t k, SortedPush<Real>& push) {
     const std::uint32_t i = a.order[k];
     if (a.pinned[i])
         return 0;
-    sum.move(a.sorted[0][k], a.sorted[1][k], a.sorted[2][k], a.substeps);
+    const std::size_t count = push.move();
     for (std::size_t axis = 0; axis < 3; ++axis)
-        a.x[axis][i] = a.sorted[axis][k];
-    return sum.count();
+        a.x[axis][i] = a.sorted[4 * k + axis];
+    return count;
 }
 
 /// Moves the points as the pushes say, one after the other. Returns how many really were near enough.
 template <class Real>
-std::size_t apply_pushes(const CellPassArguments<Real>& a, const Pushes<Real>& pushes) {
-    const auto& [x, y, z] = a.sorted;
+std::size_t apply_pushes(const CellPassArguments<Real>& a, Pushes<Real>& pushes) {
     std::size_t total = 0;
     for (std::size_t at = 0; at < pushes.count;) {
         const Real of = pushes.of[at];
-        const auto k = static_cast<std::size_t>(of);
-        PushSum<Real> sum;
+        const auto k = static_cast<std::size_t>(static_cast<std::int32_t>(of));
+        SortedPush<Real> push(a, k);
         do {
-            const auto q = static_cast<std::size_t>(pushes.by[at]);
-            sum.add(x[k] - x[q], y[k] - y[q], z[k] - z[q], a.apart);
+            push.add(static_cast<std::size_t>(static_cast<std::int32_t>(pushes.by[at])));
         } while (++at < pushes.count && pushes.of[at] == of);
-        total += move_sorted(a, k, sum);
+        total += move_sorted(a, k, push);
     }
+    pushes.count = 0;
     return total;
 }
 
 /// A bucket as the plain loop does it: for those with very many points.
 template <class Real>
 HWY_NOINLINE std::size_t crowded_bucket(const CellPassArguments<Real>& a, std::size_t begin, std::size_t end) {
-    const auto& [x, y, z] = a.sorted;
+    // Cells are those of the beginning, so they are found before a point moves.
     std::size_t total = 0;
+    std::uint32_t* group = a.scratch + begin;
+    for (std::size_t k = begin; k < end; ++k) { // the first point of the same cell stands for the cell
+        const auto cell = [&](std::size_t q, std::size_t axis) {
+            return std::floor(a.sorted[4 * q + axis] / a.cell[axis]);
+        };
+        group[k - begin] = static_cast<std::uint32_t>(end);
+        for (std::size_t q = begin; q <= k; ++q)
+            if (cell(q, 0) == cell(k, 0) && cell(q, 1) == cell(k, 1) && cell(q, 2) == cell(k, 2)) {
+                group[k - begin] = static_cast<std::uint32_t>(q);
+                break;
+            }
+    }
     for (std::size_t k = begin; k < end; ++k) {
-        PushSum<Real> sum;
+        SortedPush<Real> push(a, k);
         for (std::size_t q = begin; q < end; ++q)
-            if (q != k && a.cells[0][q] == a.cells[0][k] && a.cells[1][q] == a.cells[1][k] &&
-                a.cells[2][q] == a.cells[2][k])
-                sum.add(x[k] - x[q], y[k] - y[q], z[k] - z[q], a.apart);
-        total += move_sorted(a, k, sum);
+            if (q != k && group[q - begin] == group[k - begin] && group[k - begin] != end)
+                push.add(q);
+        total += move_sorted(a, k, push);
     }
     return total;
 }
@@ -357,20 +444,24 @@ HWY_NOINLINE std::size_t crowded_bucket(const CellPassArguments<Real>& a, std::s
 template <class Real>
 std::size_t cell_pass(const CellPassArguments<Real>& a) {
     Pushes<Real> pushes;
+    BucketPoints<Real> points;
     std::size_t total = 0;
     std::size_t begin = a.first_bucket == 0 ? 0 : a.bucket_end[a.first_bucket - 1];
     for (std::size_t bucket = a.first_bucket; bucket < a.last_bucket; ++bucket) {
-        const std::size_t end = a.bucket_end[bucket];
-        if (end - begin > 1) {
-            const std::size_t before = pushes.count;
-            if (HWY_UNLIKELY(!find_pushes(a, begin, end, pushes))) {
-                pushes.count = before;
+        const std::size_t end = a.bucket_end[bucket], size = end - begin;
+        if (size > 1) {
+            if (pushes.count + size * size > Pushes<Real>::most)
                 total += apply_pushes(a, pushes);
-                pushes.count = 0;
-                if (!find_pushes(a, begin, end, pushes)) {
-                    pushes.count = 0;
-                    total += crowded_bucket(a, begin, end);
-                }
+            if (HWY_UNLIKELY(size * size > Pushes<Real>::most || size > BucketPoints<Real>::most)) {
+                total += crowded_bucket(a, begin, end);
+            } else {
+                const bool one_cell = load_bucket(a, begin, size, points);
+                if (size > HWY_LANES(Real))
+                    find_pushes<false, false>(a, points, begin, size, pushes);
+                else if (HWY_LIKELY(one_cell))
+                    find_pushes<true, true>(a, points, begin, size, pushes);
+                else
+                    find_pushes<true, false>(a, points, begin, size, pushes);
             }
         }
         begin = end;

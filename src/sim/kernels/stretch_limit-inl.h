@@ -3,7 +3,8 @@
 //
 // That gives the plain sweep's bits. A point's springs are tested after all that comes before its vector is done; a
 // correction within the vector moves the point i or one before it, which, of the later points of the same vector, only
-// i + 1 and i + 2 have springs to (a vector being shorter than a row less three): those springs are gone through as well.
+// i + 1 and i + 2 have springs to (a vector being shorter than a row less three): those springs are gone through as
+// well.
 #if defined(CLOTHLAB_SIM_KERNELS_STRETCH_LIMIT_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLOTHLAB_SIM_KERNELS_STRETCH_LIMIT_INL_H
 #undef CLOTHLAB_SIM_KERNELS_STRETCH_LIMIT_INL_H
@@ -77,9 +78,9 @@ std::size_t first_over_limit(const LimitArguments<Real>& a, std::size_t from, st
 template <class Real>
 HWY_INLINE std::size_t limit_vector(const LimitArguments<Real>& a, std::size_t i, const MayBeOver<Real>& over) {
     constexpr std::size_t step = HWY_LANES(Real);
-    const std::uint32_t bits[stencil_size] = {bits_of<Real>(over.up),          bits_of<Real>(over.left),
-                                              bits_of<Real>(over.upper_left),  bits_of<Real>(over.upper_right),
-                                              bits_of<Real>(over.two_left),    bits_of<Real>(over.two_up)};
+    const std::uint32_t bits[stencil_size] = {bits_of<Real>(over.up),         bits_of<Real>(over.left),
+                                              bits_of<Real>(over.upper_left), bits_of<Real>(over.upper_right),
+                                              bits_of<Real>(over.two_left),   bits_of<Real>(over.two_up)};
     const auto over_limit = [&](std::uint32_t l) {
         SpringSet springs = 0;
         for (std::uint32_t s = 0; s < stencil_size; ++s)
