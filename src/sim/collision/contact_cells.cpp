@@ -40,7 +40,7 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     SelfCollisionWork<Real>& s = work.self_collision;
     Vec3Array<Real>& position = state.position;
     const std::size_t count = position.size();
-    const std::size_t buckets = std::bit_ceil(count);
+    const std::size_t buckets = std::bit_ceil(std::max<std::size_t>(count / 2, 1));
     const std::array<Real, 3> cell{model.cell_x, model.cell_y, model.cell_z};
     const auto bound = static_cast<double>(work.kernels->buckets(
         {std::as_const(position).axes(), count, cell}, static_cast<std::uint32_t>(buckets - 1), s.bucket.data()));

@@ -256,7 +256,7 @@ struct BucketPoints {
     HWY_ALIGN Real x[most], y[most], z[most], cell_x[most], cell_y[most], cell_z[most];
 };
 
-/// Fills in the points; returns whether they are all of one cell. What lies behind the bucket is read, but not used.
+/// Fills in the points, and behind them some that are near none; returns whether they are all of one cell.
 template <class Real>
 HWY_INLINE bool load_bucket(const CellPassArguments<Real>& a, std::size_t begin, std::size_t count,
                             BucketPoints<Real>& out) {
@@ -268,11 +268,13 @@ HWY_INLINE bool load_bucket(const CellPassArguments<Real>& a, std::size_t begin,
         hn::LoadInterleaved4(d, a.sorted + 4 * (begin + k), x.x, x.y, x.z, unused);
         const Lane3<Real> cell{cell_of<Real>(x.x, a.cell[0]), cell_of<Real>(x.y, a.cell[1]),
                                cell_of<Real>(x.z, a.cell[2])};
-        store3(x, Axes<Real>{out.x, out.y, out.z}, static_cast<std::ptrdiff_t>(k));
+        const auto inside = lanes_before<Real>(static_cast<std::ptrdiff_t>(count - k));
+        const auto far_away = hn::Set(d, std::numeric_limits<Real>::infinity());
+        store3(choose3<Real>(inside, x, {far_away, far_away, far_away}), Axes<Real>{out.x, out.y, out.z},
+               static_cast<std::ptrdiff_t>(k));
         store3(cell, Axes<Real>{out.cell_x, out.cell_y, out.cell_z}, static_cast<std::ptrdiff_t>(k));
         const Lane3<Real> first = set3(out.cell_x[0], out.cell_y[0], out.cell_z[0]);
         const auto same = hn::And(hn::And(hn::Eq(cell.x, first.x), hn::Eq(cell.y, first.y)), hn::Eq(cell.z, first.z));
-        const auto inside = lanes_before<Real>(static_cast<std::ptrdiff_t>(count - k));
         one_cell = one_cell && hn::AllFalse(d, hn::AndNot(same, inside));
     }
     return one_cell;
@@ -307,24 +309,25 @@ template <bool one_vector, bool one_cell, class Real>
 HWY_INLINE void find_pushes(const CellPassArguments<Real>& a, const BucketPoints<Real>& points, std::size_t begin,
                             std::size_t size, Pushes<Real>& out) {
     const Tag<Real> d;
-    const auto reach = hn::Set(d, a.reach_squared);
+    const auto reach = hn::Set(d, a.reach_squared), step = hn::Set(d, static_cast<Real>(HWY_LANES(Real)));
+    const auto first_others = hn::Iota(d, static_cast<Real>(begin));
     std::size_t count = out.count;
     for (std::size_t k = 0; k < size; ++k) {
         const Lane3<Real> x = set3(points.x[k], points.y[k], points.z[k]);
         const auto own = hn::Set(d, static_cast<Real>(begin + k));
+        auto others = first_others;
         for (std::size_t first = 0; first < (one_vector ? 1 : size); first += HWY_LANES(Real)) {
             const Lane3<Real> v =
                 subtract3(x, load3(ConstAxes<Real>{points.x, points.y, points.z}, static_cast<std::ptrdiff_t>(first)));
-            const auto others = hn::Iota(d, static_cast<Real>(begin + first));
-            auto same = lanes_before<Real>(static_cast<std::ptrdiff_t>(size - first));
+            auto near = hn::AndNot(hn::Eq(others, own), hn::Lt(dot3(v, v), reach));
             if constexpr (!one_cell) {
                 const Lane3<Real> c = load3(ConstAxes<Real>{points.cell_x, points.cell_y, points.cell_z},
                                             static_cast<std::ptrdiff_t>(first));
                 const Lane3<Real> cell = set3(points.cell_x[k], points.cell_y[k], points.cell_z[k]);
-                same = hn::And(same, hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z)));
+                near = hn::And(near, hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z)));
             }
-            const auto near = hn::AndNot(hn::Or(hn::Eq(others, own), hn::Ge(dot3(v, v), reach)), same);
             count += add_pushes<Real>(near, own, others, out.of + count, out.by + count);
+            others = hn::Add(others, step);
         }
     }
     out.count = count;
@@ -456,12 +459,15 @@ std::size_t cell_pass(const CellPassArguments<Real>& a) {
                 total += crowded_bucket(a, begin, end);
             } else {
                 const bool one_cell = load_bucket(a, begin, size, points);
-                if (size > HWY_LANES(Real))
-                    find_pushes<false, false>(a, points, begin, size, pushes);
-                else if (HWY_LIKELY(one_cell))
+                const bool one_vector = size <= HWY_LANES(Real);
+                if (HWY_LIKELY(one_cell && one_vector))
                     find_pushes<true, true>(a, points, begin, size, pushes);
-                else
+                else if (one_cell)
+                    find_pushes<false, true>(a, points, begin, size, pushes);
+                else if (one_vector)
                     find_pushes<true, false>(a, points, begin, size, pushes);
+                else
+                    find_pushes<false, false>(a, points, begin, size, pushes);
             }
         }
         begin = end;
