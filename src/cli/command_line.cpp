@@ -8,6 +8,7 @@
 #include "app/core/data_folder.h"
 #include "scene/fields.h"
 #include "scene/io.h"
+#include "sim/execution.h"
 
 namespace clothlab::cli {
 namespace {
@@ -33,9 +34,17 @@ void add_run(CLI::App& app, RunArguments& a, int& status) {
     run->add_option("--seconds", a.seconds, "Simulated seconds instead, rounded up to a whole frame")
         ->check(CLI::NonNegativeNumber)
         ->excludes(frames);
-    run->add_option("--threads", a.threads,
-                    "Threads the simulation may use; the result is the same for any number (today's methods use one)")
+    run->add_option(
+           "--threads", a.threads,
+           "Threads that the simulation may use (default: 1); it measures how many are fastest. The result is the "
+           "same for any number")
         ->check(CLI::Range(1, 1024));
+    std::vector<std::string> sets;
+    for (const sim::InstructionSetInfo& set : sim::instruction_sets())
+        sets.emplace_back(set.name);
+    run->add_option("--instructions", a.instructions,
+                    "Instruction set to compute with (default: auto, the fastest here). The result is the same for any")
+        ->check(CLI::IsMember(sets));
     run->add_option("--csv", a.csv, "Write frame,index,x,y,z to this file, frame 0 included; - is standard output");
     run->add_option("--every", a.every, "Write only every Nth frame to the CSV file")->check(CLI::PositiveNumber);
     run->add_option("--obj", a.obj, "Write the final mesh to this OBJ file");

@@ -40,6 +40,7 @@ struct RunArguments {
     std::optional<int> frames;
     std::optional<double> seconds;
     int threads = 1;
+    std::string instructions = "auto"; ///< name of an instruction set
     std::string csv, obj, state, resume;
     int every = 1;
     bool hash = false, json = false;

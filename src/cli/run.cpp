@@ -143,6 +143,20 @@ std::string hex(std::uint64_t value) {
     return digits;
 }
 
+std::string_view instruction_name(sim::InstructionSet set) {
+    return sim::instruction_sets()[static_cast<std::size_t>(set)].name;
+}
+
+sim::Execution execution(const RunArguments& arguments) {
+    sim::Execution execution{.threads = arguments.threads};
+    for (const sim::InstructionSetInfo& set : sim::instruction_sets())
+        if (set.name == arguments.instructions)
+            execution.instructions = set.id;
+    if (!sim::is_supported(execution.instructions))
+        throw scene::SceneError("--instructions " + arguments.instructions + ": this machine has no such instructions");
+    return execution;
+}
+
 Json results(const RunArguments& arguments, const scene::Scene& scene, const sim::Simulation& simulation,
              std::uint64_t frames, std::uint64_t steps, double wall_s, const std::optional<std::string>& divergence) {
     const sim::Stepping& stepping = simulation.description().stepping;
@@ -157,7 +171,8 @@ Json results(const RunArguments& arguments, const scene::Scene& scene, const sim
             {"name", scene.name},
             {"integrator", sim::integrators()[static_cast<std::size_t>(stepping.integrator)].name},
             {"precision", single ? "single" : "double"},
-            {"threads", 1},
+            {"instructions", instruction_name(simulation.instructions())},
+            {"threads", simulation.threads()},
             {"frames", frames},
             {"steps", steps},
             {"simulated_s", simulation.time()},
@@ -196,7 +211,7 @@ int run(const RunArguments& arguments) {
         throw scene::SceneError("--csv -: standard output can hold the rows or --json or --hash, not both");
     const scene::Scene scene = arguments.scene.load();
     const std::uint64_t frames = frames_to_run(arguments, scene.simulation);
-    const auto simulation = sim::Simulation::create(scene.simulation);
+    const auto simulation = sim::Simulation::create(scene.simulation, execution(arguments));
     if (!arguments.resume.empty())
         resume(arguments.resume, *simulation);
     // Before the work, not after it: that an output cannot be written.

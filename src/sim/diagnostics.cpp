@@ -111,8 +111,8 @@ std::uint64_t hash(const State<Real>& state) {
     std::uint64_t h = SplitMix64::mix(state.steps ^ SplitMix64::mix(std::bit_cast<std::uint64_t>(state.time)));
     for (const Vec3Array<Real>* array : {&state.position, &state.previous})
         for (const AlignedVector<Real>* axis : {&array->x, &array->y, &array->z})
-            for (const Real v : *axis)
-                h = SplitMix64::mix(h ^ std::bit_cast<Bits>(v));
+            for (const Real v : *axis) // every NaN is the same: which one it is, IEEE 754 leaves open
+                h = SplitMix64::mix(h ^ std::bit_cast<Bits>(v == v ? v : std::numeric_limits<Real>::quiet_NaN()));
     return h;
 }
 

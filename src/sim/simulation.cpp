@@ -93,6 +93,8 @@ public:
         s.dt = model_.dt;
         s.diagnostics = diagnose();
         s.counts = counts_;
+        s.instructions = instructions();
+        s.threads = threads();
     }
 
     InstructionSet instructions() const override { return work_.instructions; }

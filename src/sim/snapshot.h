@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/diagnostics.h"
+#include "sim/execution.h"
 #include "sim/state.h"
 #include "sim/step.h"
 
@@ -21,6 +22,8 @@ struct Snapshot {
     double dt = 0;           ///< s
     Diagnostics diagnostics;
     StepCounts counts;               ///< of the last step
+    InstructionSet instructions = InstructionSet::scalar;
+    int threads = 1;                 ///< of the last step
     StageSeconds seconds_per_step{}; ///< mean wall time of each stage since the last snapshot
 };
 

@@ -36,10 +36,19 @@ std::string print(const char* format, double value) {
     return text;
 }
 
+/// Two digits or more.
+std::string microseconds(double seconds) {
+    return print(seconds < 10e-6 ? "%.1f µs" : "%.0f µs", seconds * 1e6);
+}
+
 std::string stage_table(const sim::Snapshot& s) {
     std::string text = "Wall time per step, by stage:";
     for (std::size_t i = 0; i < sim::stage_names.size(); ++i)
         text += "\n" + print("%8.1f µs  ", s.seconds_per_step[i] * 1e6) + sim::stage_names[i];
+    if (s.seconds_per_step[static_cast<std::size_t>(sim::Stage::integrate)] == 0)
+        text += "\nForces and integration are one pass over the points.";
+    text += "\nInstructions: " + std::string(sim::instruction_sets()[static_cast<std::size_t>(s.instructions)].name) +
+            ", threads: " + std::to_string(s.threads) + " (as many as are found to be fastest)";
     return text;
 }
 
@@ -59,11 +68,11 @@ void cells(Lab& lab, const sim::Snapshot& s) {
     double step = 0;
     for (const double seconds : s.seconds_per_step)
         step += seconds;
-    cell("step", print("%4.0f µs", step * 1e6), stage_table(s));
+    cell("step", microseconds(step), stage_table(s));
     for (std::size_t i = 0; i < sim::stage_names.size() && step > 0; ++i)
         if (s.seconds_per_step[i] > 0) {
             static constexpr const char* short_names[] = {"forces", "Verlet", "self", "colliders", "limit"};
-            cell(short_names[i], print("%.0f µs", s.seconds_per_step[i] * 1e6), stage_table(s));
+            cell(short_names[i], microseconds(s.seconds_per_step[i]), stage_table(s));
         }
     cell("energy", print("%.2f J", d.energy.total()),
          "Total energy; gravity's part is zero at the origin.\n" + print("kinetic %.4g J\n", d.energy.kinetic) +

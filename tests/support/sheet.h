@@ -18,10 +18,11 @@ struct Sheet {
     sim::Vec3Array<Real> start;
     sim::Workspace<Real> work;
 
-    explicit Sheet(const sim::Description& description)
+    explicit Sheet(const sim::Description& description, const sim::Execution& execution = {})
         : model(sim::make_model<Real>(description,
                                       std::make_shared<const sim::Grid<Real>>(sim::make_grid<Real>(description)))),
-          state(sim::initial_state<Real>(description)), start(state.position), work(sim::make_workspace(model)) {
+          state(sim::initial_state<Real>(description)), start(state.position),
+          work(sim::make_workspace(model, execution)) {
         work.force.resize(points());
     }
 

@@ -18,6 +18,11 @@ double seconds(Clock::duration d) {
     return Seconds(d).count();
 }
 
+/// Threads for the steps: a run measures how many are worth it, with whatever else the window asks of the machine.
+int most_threads() {
+    return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 8u));
+}
+
 /// A slow frame shows its progress this often; a fast one is not shown more often than this.
 constexpr double publish_interval = 1.0 / 120;
 /// Lateness that playing does not try to make up for.
@@ -50,7 +55,7 @@ struct SimulationThread::Worker {
 
     void start(const sim::Description& description) {
         try {
-            auto next = sim::Simulation::create(description);
+            auto next = sim::Simulation::create(description, {.threads = most_threads()});
             next->time_stages(true);
             simulation = std::move(next);
             ++run;

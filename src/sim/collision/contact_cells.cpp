@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -46,7 +48,8 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
         {std::as_const(position).axes(), count, cell}, static_cast<std::uint32_t>(buckets - 1), s.bucket.data()));
     sort_by_bucket(position, s, buckets);
 
-    const double reach = reach_of(model, bound);
+    // Of points that are no longer finite, all that are not infinitely far apart are looked at.
+    const double reach = std::isfinite(bound) ? reach_of(model, bound) : std::numeric_limits<double>::infinity();
     const CellPassArguments<Real> all{position.axes(),
                                       s.sorted.data(),
                                       s.order.data(),

@@ -1,0 +1,114 @@
+// Memory: none is allocated while steps are taken, and a run holds so many bytes per point.
+#include <atomic>
+#include <catch2/catch_test_macros.hpp>
+#include <cstdlib>
+#include <new>
+
+#include "sim/simulation.h"
+#include "support/every_execution.h"
+
+using namespace clothlab;
+using namespace clothlab::test;
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+    ++allocations;
+    const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+    void* memory = alignment > alignof(std::max_align_t) ? std::aligned_alloc(alignment, rounded) : std::malloc(size);
+    if (!memory)
+        throw std::bad_alloc();
+    return memory;
+}
+} // namespace
+
+// Of the whole test program: all that is allocated is counted.
+void* operator new(std::size_t size) {
+    return counted(size > 0 ? size : 1, 1);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return counted(size > 0 ? size : 1, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+
+namespace {
+
+sim::Description busy(int points) {
+    sim::Description d;
+    d.cloth.num_width_points = d.cloth.num_height_points = points;
+    d.cloth.orientation = sim::Orientation::vertical;
+    d.cloth.ks = 300;
+    d.cloth.thickness = 0.4 / points;
+    d.cloth.pinned = {{0, points - 1}};
+    d.colliders = {sim::Plane{{0, 0.005, 0}, {0, 1, 0}, 0.5}, sim::Sphere{{0.5, 0.2, 0.1}, 0.2, 0.1}};
+    return d;
+}
+
+} // namespace
+
+TEST_CASE("The counter of allocations counts") {
+    const std::size_t before = allocations;
+    delete new int;
+    std::vector<double>(100).swap(*std::make_unique<std::vector<double>>());
+    REQUIRE(allocations >= before + 3);
+}
+
+TEST_CASE("A step allocates no memory, with contacts of all kinds, in wind, and in any way of computing it") {
+    for (const sim::InstructionSet set : supported_sets())
+        for (const int threads : {1, 3})
+            for (const sim::WindKind wind : {sim::WindKind::none, sim::WindKind::physical}) {
+                sim::Description description = busy(30);
+                description.wind.kind = wind;
+                const auto simulation = sim::Simulation::create(description, exactly(set, threads));
+                sim::StepCounts sum;
+                const std::size_t before = allocations;
+                for (int i = 0; i < 1200; ++i) {
+                    const sim::StepCounts counts = simulation->step();
+                    sum.self_contacts += counts.self_contacts;
+                    sum.contacts += counts.contacts;
+                    sum.shortened_springs += counts.shortened_springs;
+                }
+                const std::size_t after = allocations;
+                INFO(name_of(set) << ", " << threads << " threads");
+                REQUIRE(after == before);
+                REQUIRE((sum.self_contacts > 0 && sum.contacts > 0 && sum.shortened_springs > 0));
+            }
+}
+
+TEST_CASE("What a scene does not use costs no memory") {
+    const auto bytes_per_point = [](sim::Description d) {
+        d.cloth.num_width_points = d.cloth.num_height_points = 200;
+        const auto simulation = sim::Simulation::create(d, exactly(sim::resolve(sim::InstructionSet::automatic), 1));
+        return static_cast<double>(simulation->memory_bytes()) / 40000;
+    };
+    if (sim::resolve(sim::InstructionSet::automatic) == sim::InstructionSet::scalar)
+        SKIP("no vectors here");
+    sim::Description bare;
+    bare.rules.self_collision = sim::SelfCollisionRule::none;
+    const double springs = bytes_per_point(bare);
+    CHECK(springs < 30); // positions and previous positions 24, pins 1, scratch rows
+    sim::Description windy = bare;
+    windy.wind.kind = sim::WindKind::physical;
+    CHECK(bytes_per_point(windy) > springs + 11); // forces 12
+    sim::Description standing = bare;
+    standing.cloth.orientation = sim::Orientation::vertical;
+    CHECK(bytes_per_point(standing) > springs + 23); // rest lengths 24
+    const double contacts = bytes_per_point({});
+    CHECK(contacts < 130);
+    sim::Description exact;
+    exact.stepping.precision = sim::Precision::double_precision;
+    // 2048 x 2048 within 1 GiB: positions for the picture come on top.
+    CHECK(bytes_per_point(exact) * 2048 * 2048 < 0.85 * (1 << 30));
+}
