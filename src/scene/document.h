@@ -22,6 +22,14 @@ struct Node {
     std::vector<std::pair<std::string, Node>> members; ///< in the order of the file
     std::size_t line = 0;                              ///< 1-based; where the value, or its key, stands
 
+    // Not here: Clang would need the whole pair of `members` for them, of which this is a part.
+    Node();
+    Node(const Node&);
+    Node(Node&&) noexcept;
+    Node& operator=(const Node&);
+    Node& operator=(Node&&) noexcept;
+    ~Node();
+
     /// The member of a name, or nullptr.
     const Node* find(std::string_view name) const;
 };
