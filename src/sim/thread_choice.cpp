@@ -13,6 +13,10 @@ constexpr int block = 8, rounds = 4;
 constexpr std::uint64_t steps_between = 8192;
 /// More threads have to be worth their cores.
 constexpr double worth = 0.95;
+/// While several threads are used, so many steps at a time are timed; if they take this much longer than with one
+/// thread, something else needs the machine, and one thread goes on alone until the next measurement.
+constexpr int watched = 32;
+constexpr double patience = 1.5;
 
 } // namespace
 
@@ -35,15 +39,21 @@ void ThreadChoice::restart() {
 void ThreadChoice::end_step() {
     if (candidates_.size() == 1)
         return;
+    const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start_).count(); };
     if (!measuring_) {
         if (--until_restart_ == 0)
-            restart();
+            return restart();
+        if (now_ == 0 || ++step_ < watched)
+            return;
+        step_ = 0;
+        if (seconds() / watched > patience * best_[0] / block)
+            now_ = 0;
         return;
     }
     if (++step_ < block)
         return;
     step_ = 0;
-    best_[now_] = std::min(best_[now_], std::chrono::duration<double>(Clock::now() - start_).count());
+    best_[now_] = std::min(best_[now_], seconds());
     if (++now_ < candidates_.size())
         return;
     now_ = 0;

@@ -17,7 +17,7 @@ public:
     int threads() const { return candidates_[now_]; }
     /// To be called before and after each step.
     void begin_step() {
-        if (measuring_ && step_ == 0)
+        if (candidates_.size() > 1 && step_ == 0)
             start_ = Clock::now();
     }
     void end_step();
@@ -32,7 +32,7 @@ private:
     bool measuring_ = false;
     int step_ = 0, round_ = 0;
     std::uint64_t until_restart_ = 0;
-    Clock::time_point start_;
+    Clock::time_point start_; ///< of the block under way
 };
 
 } // namespace clothlab::sim

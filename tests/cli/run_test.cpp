@@ -34,10 +34,10 @@ TEST_CASE("run --json prints one object with the documented keys and consistent 
             names.push_back(name);
         return names;
     };
-    REQUIRE(keys(json) == std::vector<std::string>{"scene", "name", "integrator", "precision", "threads", "frames",
-                                                   "steps", "simulated_s", "wall_s", "steps_per_s", "stage_s",
-                                                   "energy_J", "max_strain", "rms_speed", "intersections", "status",
-                                                   "cause", "hash"});
+    REQUIRE(keys(json) == std::vector<std::string>{"scene", "name", "integrator", "precision", "instructions",
+                                                   "threads", "frames", "steps", "simulated_s", "wall_s", "steps_per_s",
+                                                   "stage_s", "energy_J", "max_strain", "rms_speed", "intersections",
+                                                   "status", "cause", "hash"});
     REQUIRE(keys(json["energy_J"]) == std::vector<std::string>{"kinetic", "spring", "gravity", "total"});
     REQUIRE(json["scene"] == scene);
     REQUIRE(json["name"] == "Small");

@@ -80,3 +80,24 @@ TEST_CASE("A run that may choose tries one thread, two, four and all, and keeps 
         }
     }
 }
+
+TEST_CASE("A run whose threads are held up goes on with one") {
+    ThreadChoice choice(2, true);
+    bool held_up = false;
+    const auto step = [&] {
+        choice.begin_step();
+        if (choice.threads() == 1 || held_up)
+            std::this_thread::sleep_for(std::chrono::milliseconds(choice.threads() == 1 ? 1 : 5));
+        choice.end_step();
+    };
+    for (int i = 0; i < 2 * 4 * 8; ++i)
+        step();
+    REQUIRE(choice.threads() == 2);
+    for (int i = 0; i < 200; ++i)
+        step();
+    REQUIRE(choice.threads() == 2);
+    held_up = true;
+    for (int i = 0; i < 64; ++i)
+        step();
+    REQUIRE(choice.threads() == 1);
+}

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace clothlab::sim {
@@ -19,6 +18,9 @@ constexpr int least_age = 6, least_without = 32, most_without = 512;
 /// rounding in Real: x fastest.
 template <class Real>
 struct Box {
+    /// Along one axis: so that single precision tells a hundredth of a cell.
+    static constexpr double most_along = 1e4;
+
     Box(const Vec3Array<Real>& position, double size) {
         const auto axes = position.axes();
         std::array<double, 3> extent;
@@ -40,7 +42,8 @@ struct Box {
                 std::max({bound_so_far, std::abs(static_cast<double>(low)), std::abs(static_cast<double>(high))});
         }
         bound = bound_so_far;
-        usable = finite && bound < 1e5 * size;
+        const double longest = *std::max_element(extent.begin(), extent.end());
+        usable = finite && std::isfinite(longest);
         size *= 1.01;
         const auto cells = [&](double cell) {
             double total = 1;
@@ -48,7 +51,8 @@ struct Box {
                 total *= std::floor(e / cell) + 2;
             return total;
         };
-        while (usable && cells(size) > static_cast<double>(most_cells(position.size())))
+        while (usable &&
+               (cells(size) > static_cast<double>(most_cells(position.size())) || longest > most_along * size))
             size *= 1.1;
         per_metre = static_cast<Real>(1 / size);
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -63,7 +67,7 @@ struct Box {
     std::array<Real, 3> from{};
     Real per_metre = 0;
     double bound = 0;    ///< m, largest coordinate
-    bool usable = false; ///< finite, and small enough for whole numbers
+    bool usable = false; ///< finite
     std::array<std::uint32_t, 3> count{};
 };
 
@@ -207,7 +211,7 @@ bool find_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Works
     Proximity proximity = look_at_neighbours(model, position, work, reach_squared);
     if (proximity.too_many)
         return leave(s);
-    ++s.age;
+    s.age = std::min(s.age + 1, 1 << 20);
     if (!s.anchored || !(proximity.spread <= s.skin * (1 - 1e-3) - 8 * rounding * s.coordinate_bound)) {
         if (s.anchored && s.age < least_age)
             return leave(s);

@@ -18,8 +18,9 @@
 #include "sim/kernels/kernels.h"
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+#include "sim/kernels/contact_cells-inl.h"
 #include "sim/kernels/contacts-inl.h"
-#include "sim/kernels/self_collision-inl.h"
+#include "sim/kernels/near_pairs-inl.h"
 #include "sim/kernels/spring_sweep-inl.h"
 #include "sim/kernels/stretch_limit-inl.h"
 #endif

@@ -78,7 +78,7 @@ struct SphereModel;
 template <class Real>
 struct PlaneModel;
 
-/// Points [begin, end) against one collider. Pins are not told apart: the caller puts them back.
+/// Points [begin, end) against one collider.
 template <class Real>
 struct ContactArguments {
     Axes<Real> x;
