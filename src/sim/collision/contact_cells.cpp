@@ -12,27 +12,43 @@
 namespace clothlab::sim {
 namespace {
 
-/// Counting sort of all points by bucket: `order`, `sorted` and where each bucket ends. Points of a bucket stay
-/// ascending.
+/// Counting sort of all points by bucket: `order` and `sorted`; points of a bucket stay ascending. Returns where each
+/// bucket ends. Neighbours in the grid mostly share a bucket, and each count has to wait for the one before: so the
+/// lower and the upper half of the points are counted and placed by turns.
 template <class Real>
-void sort_by_bucket(const Vec3Array<Real>& position, SelfCollisionWork<Real>& work, std::size_t buckets) {
-    const std::size_t count = position.size();
-    std::fill_n(work.bucket_end.begin(), buckets, 0u);
-    for (std::size_t i = 0; i < count; ++i)
-        ++work.bucket_end[work.bucket[i]];
+const std::uint32_t* sort_by_bucket(const Vec3Array<Real>& position, SelfCollisionWork<Real>& work,
+                                    std::size_t buckets) {
+    const std::size_t count = position.size(), half = count / 2;
+    std::uint32_t *lower = work.bucket_end.data(), *upper = lower + buckets;
+    std::fill_n(lower, 2 * buckets, 0u);
+    for (std::size_t i = 0; i < half; ++i) {
+        ++lower[work.bucket[i]];
+        ++upper[work.bucket[half + i]];
+    }
+    if (count % 2 != 0)
+        ++upper[work.bucket[count - 1]];
     std::uint32_t begin = 0;
-    for (std::size_t b = 0; b < buckets; ++b)
-        begin += std::exchange(work.bucket_end[b], begin);
-    // What is now each bucket's beginning moves on to its end.
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t k = work.bucket_end[work.bucket[i]]++;
+    for (std::size_t b = 0; b < buckets; ++b) {
+        begin += std::exchange(lower[b], begin);
+        begin += std::exchange(upper[b], begin);
+    }
+    // What is now each beginning moves on to its end.
+    const auto place = [&](std::size_t i, std::uint32_t* ends) {
+        const std::size_t k = ends[work.bucket[i]]++;
         work.order[k] = static_cast<std::uint32_t>(i);
-        Real* sorted = work.sorted.data() + 4 * std::size_t{k};
+        Real* sorted = work.sorted.data() + 4 * k;
         sorted[0] = position.x[i];
         sorted[1] = position.y[i];
         sorted[2] = position.z[i];
         sorted[3] = 0;
+    };
+    for (std::size_t i = 0; i < half; ++i) {
+        place(i, lower);
+        place(half + i, upper);
     }
+    if (count % 2 != 0)
+        place(count - 1, upper);
+    return upper;
 }
 
 } // namespace
@@ -46,14 +62,14 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     const std::array<Real, 3> cell{model.cell_x, model.cell_y, model.cell_z};
     const auto bound = static_cast<double>(work.kernels->buckets(
         {std::as_const(position).axes(), count, cell}, static_cast<std::uint32_t>(buckets - 1), s.bucket.data()));
-    sort_by_bucket(position, s, buckets);
+    const std::uint32_t* bucket_end = sort_by_bucket(position, s, buckets);
 
     // Of points that are no longer finite, all that are not infinitely far apart are looked at.
     const double reach = std::isfinite(bound) ? reach_of(model, bound) : std::numeric_limits<double>::infinity();
     const CellPassArguments<Real> all{position.axes(),
                                       s.sorted.data(),
                                       s.order.data(),
-                                      s.bucket_end.data(),
+                                      bucket_end,
                                       s.bucket.data(), // no longer needed
                                       0,
                                       buckets,
