@@ -1,47 +1,14 @@
 // Memory: none is allocated while steps are taken, and a run holds so many bytes per point.
-#include <atomic>
 #include <catch2/catch_test_macros.hpp>
-#include <cstdlib>
-#include <new>
+#include <memory>
+#include <vector>
 
 #include "sim/simulation.h"
+#include "support/allocations.h"
 #include "support/every_execution.h"
 
 using namespace clothlab;
 using namespace clothlab::test;
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-
-void* counted(std::size_t size, std::size_t alignment) {
-    ++allocations;
-    const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-    void* memory = alignment > alignof(std::max_align_t) ? std::aligned_alloc(alignment, rounded) : std::malloc(size);
-    if (!memory)
-        throw std::bad_alloc();
-    return memory;
-}
-} // namespace
-
-// Of the whole test program: all that is allocated is counted.
-void* operator new(std::size_t size) {
-    return counted(size > 0 ? size : 1, 1);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    return counted(size > 0 ? size : 1, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    std::free(memory);
-}
 
 namespace {
 
@@ -59,10 +26,10 @@ sim::Description busy(int points) {
 } // namespace
 
 TEST_CASE("The counter of allocations counts") {
-    const std::size_t before = allocations;
+    const std::size_t before = allocations();
     delete new int;
     std::vector<double>(100).swap(*std::make_unique<std::vector<double>>());
-    REQUIRE(allocations >= before + 3);
+    REQUIRE(allocations() >= before + 3);
 }
 
 TEST_CASE("A step allocates no memory, with contacts of all kinds, in wind, and in any way of computing it") {
@@ -73,14 +40,14 @@ TEST_CASE("A step allocates no memory, with contacts of all kinds, in wind, and 
                 description.wind.kind = wind;
                 const auto simulation = sim::Simulation::create(description, exactly(set, threads));
                 sim::StepCounts sum;
-                const std::size_t before = allocations;
+                const std::size_t before = allocations();
                 for (int i = 0; i < 1200; ++i) {
                     const sim::StepCounts counts = simulation->step();
                     sum.self_contacts += counts.self_contacts;
                     sum.contacts += counts.contacts;
                     sum.shortened_springs += counts.shortened_springs;
                 }
-                const std::size_t after = allocations;
+                const std::size_t after = allocations();
                 INFO(name_of(set) << ", " << threads << " threads");
                 REQUIRE(after == before);
                 REQUIRE((sum.self_contacts > 0 && sum.contacts > 0 && sum.shortened_springs > 0));
