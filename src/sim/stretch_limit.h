@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "sim/kernels/kernels.h"
 #include "sim/model.h"
@@ -86,19 +87,20 @@ template <class Real>
                                                     SpringSet todo = all_springs) {
     const std::size_t column = static_cast<std::uint32_t>(i) % static_cast<std::uint32_t>(arguments.columns);
     SpringSet shortened = 0;
-    const auto look = [&](SpringSet spring, bool (*shorten)(const LimitArguments<Real>&, std::size_t, std::size_t)) {
-        if ((todo & spring) != 0 && shorten(arguments, i, column)) {
-            shortened |= spring;
+    const auto look = [&](auto entry) __attribute__((always_inline)) {
+        constexpr std::size_t s = decltype(entry)::value;
+        if ((todo & (1u << s)) != 0 && limit_spring<s>(arguments, i, column)) {
+            shortened |= 1u << s;
             todo = all_springs;
         }
     };
     static_assert(stencil_size == 6);
-    look(1, limit_spring<0, Real>);
-    look(2, limit_spring<1, Real>);
-    look(4, limit_spring<2, Real>);
-    look(8, limit_spring<3, Real>);
-    look(16, limit_spring<4, Real>);
-    look(32, limit_spring<5, Real>);
+    look(std::integral_constant<std::size_t, 0>());
+    look(std::integral_constant<std::size_t, 1>());
+    look(std::integral_constant<std::size_t, 2>());
+    look(std::integral_constant<std::size_t, 3>());
+    look(std::integral_constant<std::size_t, 4>());
+    look(std::integral_constant<std::size_t, 5>());
     return shortened;
 }
 
