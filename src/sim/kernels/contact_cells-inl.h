@@ -6,6 +6,7 @@
 #define CLOTHLAB_SIM_KERNELS_CONTACT_CELLS_INL_H
 #endif
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -67,14 +68,22 @@ struct BucketPoints {
 
 /// Fills in the points, and behind them some that are near none; returns whether they are all of one cell.
 template <class Real>
-HWY_INLINE bool load_bucket(const CellPassArguments<Real>& a, std::size_t begin, std::size_t count,
+HWY_INLINE bool load_bucket(const CellPassArguments<Real>& a, std::size_t begin, std::size_t count, std::size_t all_end,
                             BucketPoints<Real>& out) {
     const Tag<Real> d;
     bool one_cell = true;
     for (std::size_t k = 0; k < count; k += HWY_LANES(Real)) {
         Lane3<Real> x;
         Lane<Real> unused;
-        hn::LoadInterleaved4(d, a.sorted + 4 * (begin + k), x.x, x.y, x.z, unused);
+        const Real* sorted = a.sorted + 4 * (begin + k);
+        // Where this thread's points end, another's begin, and those are on the move.
+        HWY_ALIGN Real last[4 * HWY_LANES(Real)];
+        if (HWY_UNLIKELY(begin + k + HWY_LANES(Real) > all_end)) {
+            Real* behind = std::copy_n(sorted, 4 * HWY_MIN(count - k, HWY_LANES(Real)), last);
+            std::fill(behind, last + 4 * HWY_LANES(Real), Real(0));
+            sorted = last;
+        }
+        hn::LoadInterleaved4(d, sorted, x.x, x.y, x.z, unused);
         const Lane3<Real> cell{cell_of<Real>(x.x, a.cell[0]), cell_of<Real>(x.y, a.cell[1]),
                                cell_of<Real>(x.z, a.cell[2])};
         const auto inside = lanes_before<Real>(static_cast<std::ptrdiff_t>(count - k));
@@ -259,6 +268,7 @@ std::size_t cell_pass(const CellPassArguments<Real>& a) {
     BucketPoints<Real> points;
     std::size_t total = 0;
     std::size_t begin = a.first_bucket == 0 ? 0 : a.bucket_end[a.first_bucket - 1];
+    const std::size_t all_end = a.last_bucket == 0 ? 0 : a.bucket_end[a.last_bucket - 1];
     for (std::size_t bucket = a.first_bucket; bucket < a.last_bucket; ++bucket) {
         const std::size_t end = a.bucket_end[bucket], size = end - begin;
         if (size > 1) {
@@ -267,7 +277,7 @@ std::size_t cell_pass(const CellPassArguments<Real>& a) {
             if (HWY_UNLIKELY(size * size > Pushes<Real>::most || size > BucketPoints<Real>::most)) {
                 total += crowded_bucket(a, begin, end);
             } else {
-                const bool one_cell = load_bucket(a, begin, size, points);
+                const bool one_cell = load_bucket(a, begin, size, all_end, points);
                 const bool one_vector = size <= HWY_LANES(Real);
                 if (HWY_LIKELY(one_cell && one_vector))
                     find_pushes<true, true>(a, points, begin, size, pushes);
