@@ -21,7 +21,7 @@ struct Snapshot {
     int substeps = 1;        ///< per frame
     double dt = 0;           ///< s
     Diagnostics diagnostics;
-    StepCounts counts;               ///< of the last step
+    StepCounts counts; ///< of the last step
     InstructionSet instructions = InstructionSet::scalar;
     int threads = 1;                 ///< of the last step
     StageSeconds seconds_per_step{}; ///< mean wall time of each stage since the last snapshot
