@@ -43,8 +43,7 @@ constexpr std::array<void (*)(const SweepArguments<Real>&), 3> sweeps() {
 
 template <class Real>
 const Kernels<Real>* table() {
-    static constexpr Kernels<Real> kernels{HWY_LANES(Real),
-                                           {sweeps<0, Real>(), sweeps<1, Real>(), sweeps<2, Real>(), sweeps<3, Real>(),
+    static constexpr Kernels<Real> kernels{{sweeps<0, Real>(), sweeps<1, Real>(), sweeps<2, Real>(), sweeps<3, Real>(),
                                             sweeps<4, Real>(), sweeps<5, Real>(), sweeps<6, Real>(), sweeps<7, Real>()},
                                            sphere_contacts<Real>,
                                            plane_contacts<Real>,

@@ -155,7 +155,6 @@ struct CellPassArguments {
 
 template <class Real>
 struct Kernels {
-    std::size_t lanes;
     /// By set of spring kinds (bits of SpringKind), then sink.
     std::array<std::array<void (*)(const SweepArguments<Real>&), 3>, 8> sweep;
     std::size_t (*sphere)(const ContactArguments<Real>&, const SphereModel<Real>&);
