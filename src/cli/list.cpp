@@ -18,8 +18,18 @@ using Json = nlohmann::ordered_json;
 
 Json integrators() {
     Json rows = Json::array();
-    for (const sim::IntegratorInfo& i : sim::integrators())
-        rows.push_back({{"name", i.name}, {"title", i.title}, {"help", i.help}});
+    for (const sim::IntegratorInfo& i : sim::integrators()) {
+        const double limit = i.limit(0); // JSON has no infinity: null is no limit
+        rows.push_back({{"name", i.name},
+                        {"family", sim::family_names[static_cast<std::size_t>(i.family)]},
+                        {"order", i.order},
+                        {"limit", i.limit_formula},
+                        {"limit_omega_dt", std::isfinite(limit) ? Json(limit) : Json()},
+                        {"cost", i.cost},
+                        {"title", i.title},
+                        {"source", i.source},
+                        {"help", i.help}});
+    }
     return rows;
 }
 

@@ -26,14 +26,27 @@ Document value_document(std::string_view value, const std::string& source) {
     }
 }
 
+/// What `rules = physical` stands for, by rule.
+std::string_view physical_value(std::string_view rule) {
+#define CLOTHLAB_RULE(field, type, label, physical, help, ...)                                                         \
+    if (rule == #field)                                                                                                \
+        return physical;
+#include "sim/rules.def"
+#undef CLOTHLAB_RULE
+    return "";
+}
+
 void set_rules(Scene& scene, const Document& value) {
     Scene changed = scene;
     for (const Field& f : fields()) {
         if (f.section() != "rules")
             continue;
-        const auto choice = std::find(f.choices.begin(), f.choices.end(), value.root.text);
+        const std::string_view wanted =
+            value.root.text == "physical" ? physical_value(f.name()) : std::string_view(value.root.text);
+        const auto choice = std::find(f.choices.begin(), f.choices.end(), wanted);
         if (choice == f.choices.end())
-            value.fail(value.root, "rules", "it must be \"cs184\", or set one rule as in rules.limit=off");
+            value.fail(value.root, "rules",
+                       "it must be \"cs184\" or \"physical\", or set one rule as in rules.limit=off");
         f.set(changed, static_cast<double>(choice - f.choices.begin()));
     }
     scene = std::move(changed);

@@ -29,7 +29,8 @@ struct Cloth {
     Orientation orientation = Orientation::horizontal;
     double ks = 5000;     ///< N/m
     double density = 150; ///< kg/m²; may be negative, not zero
-    double damping = 0.2; ///< percent of the Verlet displacement lost in each substep
+    double damping = 0.2; ///< percent of the motion lost in each substep, by the course's rule
+    double damping_rate = 5.4; ///< 1/s, c of the physical rule: motion decays as exp(-c t)
     bool enable_structural = true;
     bool enable_shearing = true;
     bool enable_bending = true;
@@ -71,12 +72,12 @@ struct Wind {
 };
 
 /// The course's shortcuts, each with a name and, where one is built, an alternative. See rules.def.
-enum class DampingRule : std::uint8_t { cs184 };
-enum class StartRule : std::uint8_t { cs184 };
-enum class LimitRule : std::uint8_t { cs184, off };
-enum class FrictionRule : std::uint8_t { cs184 };
-enum class PlaneRule : std::uint8_t { cs184 };
-enum class SelfCollisionRule : std::uint8_t { cs184, none };
+enum class DampingRule : std::uint8_t { cs184, physical };
+enum class StartRule : std::uint8_t { cs184, physical };
+enum class LimitRule : std::uint8_t { cs184, off, iterated };
+enum class FrictionRule : std::uint8_t { cs184, physical };
+enum class PlaneRule : std::uint8_t { cs184, physical };
+enum class SelfCollisionRule : std::uint8_t { cs184, none, neighbours, triangles };
 
 struct Rules {
     DampingRule damping = DampingRule::cs184;
@@ -89,7 +90,7 @@ struct Rules {
 };
 
 enum class IntegratorId : std::uint8_t {
-#define CLOTHLAB_INTEGRATOR(id, name, title, help) id,
+#define CLOTHLAB_INTEGRATOR(id, name) id,
 #include "sim/integrators/integrators.def"
 #undef CLOTHLAB_INTEGRATOR
 };
@@ -101,6 +102,9 @@ struct Stepping {
     Precision precision = Precision::single_precision;
     double frames_per_second = 90;
     int substeps = 30;               ///< steps per frame
+    int iterations = 10;             ///< of methods that sweep over springs or points, per step
+    double tolerance = 1e-6;         ///< of methods that iterate or choose their step until they are accurate enough
+    double pbd_stiffness = 1;        ///< k of position based dynamics, 0 to 1
     double seed = 0;                 ///< of the vertical cloth's random offsets; a whole number below 2^53
     Vec3 gravity{0, -9.8, 0};        ///< m/s²
     std::vector<Vec3> accelerations; ///< m/s², further ones

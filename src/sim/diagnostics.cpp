@@ -18,6 +18,24 @@ namespace {
 /// that only falls or flies keeps its extent.
 constexpr double blown_up = 100;
 
+/// Velocities in m/s, wherever the method keeps them.
+template <class Real>
+class VelocityOf {
+public:
+    VelocityOf(const Model<Real>& model, const State<Real>& state) : state_(state), dt_(model.dt) {}
+    Vec3 operator()(std::size_t i) const {
+        const auto d = [](Real v) { return static_cast<double>(v); };
+        const Vec3Array<Real>&x = state_.position, &p = state_.previous, &v = state_.velocity;
+        if (v.size() != 0)
+            return {d(v.x[i]), d(v.y[i]), d(v.z[i])};
+        return {(d(x.x[i]) - d(p.x[i])) / dt_, (d(x.y[i]) - d(p.y[i])) / dt_, (d(x.z[i]) - d(p.z[i])) / dt_};
+    }
+
+private:
+    const State<Real>& state_;
+    double dt_;
+};
+
 std::string sentence(const char* format, auto... arguments) {
     char text[256];
     std::snprintf(text, sizeof text, format, arguments...);
@@ -50,16 +68,16 @@ std::string divergence_cause(const Model<Real>& model, const char* what) {
 template <class Real>
 Diagnostics diagnose(const Model<Real>& model, const State<Real>& state) {
     Diagnostics result;
-    const Vec3Array<Real>&x = state.position, &p = state.previous;
+    const Vec3Array<Real>& x = state.position;
     const auto d = [](Real v) { return static_cast<double>(v); };
 
+    const VelocityOf velocity(model, state);
     double square_speed = 0;
     constexpr double inf = std::numeric_limits<double>::infinity();
     Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
     for (std::size_t i = 0; i < x.size(); ++i) {
-        const double vx = (d(x.x[i]) - d(p.x[i])) / model.dt, vy = (d(x.y[i]) - d(p.y[i])) / model.dt,
-                     vz = (d(x.z[i]) - d(p.z[i])) / model.dt;
-        square_speed += vx * vx + vy * vy + vz * vz;
+        const Vec3 v = velocity(i);
+        square_speed += v.x * v.x + v.y * v.y + v.z * v.z;
         low = {std::min(low.x, d(x.x[i])), std::min(low.y, d(x.y[i])), std::min(low.z, d(x.z[i]))};
         high = {std::max(high.x, d(x.x[i])), std::max(high.y, d(x.y[i])), std::max(high.z, d(x.z[i]))};
     }
@@ -91,12 +109,13 @@ Diagnostics diagnose(const Model<Real>& model, const State<Real>& state) {
 
 template <class Real>
 Momentum momentum(const Model<Real>& model, const State<Real>& state) {
-    const Vec3Array<Real>&x = state.position, &p = state.previous;
+    const Vec3Array<Real>& x = state.position;
     const auto d = [](Real v) { return static_cast<double>(v); };
+    const VelocityOf velocity(model, state);
     Momentum sum;
     for (std::size_t i = 0; i < x.size(); ++i) {
-        const double scale = d(model.mass) / model.dt;
-        const Vec3 q{scale * (d(x.x[i]) - d(p.x[i])), scale * (d(x.y[i]) - d(p.y[i])), scale * (d(x.z[i]) - d(p.z[i]))};
+        const double mass = d(model.mass);
+        const Vec3 v = velocity(i), q{mass * v.x, mass * v.y, mass * v.z};
         sum.linear = {sum.linear.x + q.x, sum.linear.y + q.y, sum.linear.z + q.z};
         sum.angular = {sum.angular.x + d(x.y[i]) * q.z - d(x.z[i]) * q.y,
                        sum.angular.y + d(x.z[i]) * q.x - d(x.x[i]) * q.z,
@@ -109,7 +128,9 @@ template <class Real>
 std::uint64_t hash(const State<Real>& state) {
     using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
     std::uint64_t h = SplitMix64::mix(state.steps ^ SplitMix64::mix(std::bit_cast<std::uint64_t>(state.time)));
-    for (const Vec3Array<Real>* array : {&state.position, &state.previous})
+    if (state.history != 0 || state.solver_step != 0)
+        h = SplitMix64::mix(h ^ state.history ^ SplitMix64::mix(std::bit_cast<std::uint64_t>(state.solver_step)));
+    for (const Vec3Array<Real>* array : {&state.position, &state.previous, &state.velocity, &state.previous_velocity})
         for (const AlignedVector<Real>* axis : {&array->x, &array->y, &array->z})
             for (const Real v : *axis) // every NaN is the same: which one it is, IEEE 754 leaves open
                 h = SplitMix64::mix(h ^ std::bit_cast<Bits>(v == v ? v : std::numeric_limits<Real>::quiet_NaN()));

@@ -30,7 +30,8 @@ struct Diagnostics {
     std::string cause; ///< of a divergence: a sentence
 };
 
-/// Energies, strain and speed of a state; velocities are (position - previous) / dt, those of the last half step.
+/// Energies, strain and speed of a state; velocities are its own, or, for methods that keep none, (position -
+/// previous) / dt, those of the last half step.
 template <class Real>
 Diagnostics diagnose(const Model<Real>& model, const State<Real>& state);
 
@@ -38,7 +39,7 @@ Diagnostics diagnose(const Model<Real>& model, const State<Real>& state);
 template <class Real>
 Momentum momentum(const Model<Real>& model, const State<Real>& state);
 
-/// A 64-bit hash of time, step count, positions and previous positions: equal for equal bits.
+/// A 64-bit hash of all that is in a state: equal for equal bits.
 template <class Real>
 std::uint64_t hash(const State<Real>& state);
 

@@ -64,8 +64,15 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
     model.gx = real(g.x);
     model.gy = real(g.y);
     model.gz = real(g.z);
-    model.keep = real(1.0 - fraction(cloth.damping));
     model.dt = step_length(description);
+    if (description.rules.damping == DampingRule::physical) {
+        const double decay = cloth.damping_rate * model.dt;
+        model.damping_rate = cloth.damping_rate;
+        model.keep = real(std::exp(-decay));
+        model.force_share = decay == 0 ? Real(1) : real(-std::expm1(-decay) / decay);
+    } else {
+        model.keep = model.course_keep = real(1.0 - fraction(cloth.damping));
+    }
     model.substeps = stepping.substeps;
     model.thickness = real(cloth.thickness);
     const double w = 3.0 * cloth.width / cloth.num_width_points, h = 3.0 * cloth.height / cloth.num_height_points;
@@ -77,6 +84,9 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
     model.wind = description.wind;
     model.rules = description.rules;
     model.integrator = stepping.integrator;
+    model.iterations = stepping.iterations;
+    model.tolerance = stepping.tolerance;
+    model.pbd_stiffness = real(stepping.pbd_stiffness);
     return model;
 }
 

@@ -6,13 +6,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/integrators/integrator.h"
 #include "sim/random.h"
 
 namespace clothlab::sim {
 namespace {
 
 constexpr std::uint32_t state_magic = 0x534c4343; // "CCLS"
-constexpr std::uint32_t state_version = 1;
+constexpr std::uint32_t state_version = 2;
 
 struct StateHeader {
     std::uint32_t magic = state_magic, version = state_version;
@@ -20,6 +21,10 @@ struct StateHeader {
     std::int32_t columns = 0, rows = 0, substep = 0;
     std::uint64_t frame = 0, steps = 0;
     double time = 0;
+    double dt = 0; ///< s; of the step that it comes from
+    double solver_step = 0;
+    std::uint32_t history = 0;
+    std::uint32_t velocities = 0; ///< arrays of velocities: 0 to 2
 };
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
@@ -45,14 +50,26 @@ public:
     SimulationOf(const Description& description, const Execution& execution)
         : Simulation(description),
           model_(make_model<Real>(description, std::make_shared<const Grid<Real>>(make_grid<Real>(description)))),
-          state_(initial_state<Real>(description)), work_(make_workspace(model_, execution)) {}
+          state_(initial_state<Real>(description)), work_(make_workspace(model_, execution)) {
+        begin(model_, state_, work_);
+    }
 
     void change(const Description& description) override {
         if (!can_change_live(description_, description))
             throw std::invalid_argument("this change of grid, start or precision needs a restart");
-        model_ = make_model<Real>(description, model_.grid);
+        Model<Real> model = make_model<Real>(description, model_.grid);
+        const double dt = model_.dt;
+        model_ = std::move(model);
         description_ = description;
         prepare(model_, work_);
+        if (dt != model_.dt) // what lies further back was not a step like the next ones
+            state_.history = 0;
+        if (state_.steps == 0) {
+            state_ = initial_state<Real>(description);
+            begin(model_, state_, work_);
+        } else {
+            adopt(model_, state_, work_, dt);
+        }
         if (substep_ >= model_.substeps) { // the frame under way has fewer steps now and is over
             substep_ = 0;
             ++frame_;
@@ -100,7 +117,8 @@ public:
     InstructionSet instructions() const override { return work_.instructions; }
     int threads() const override { return work_.choice.threads(); }
     std::size_t memory_bytes() const override {
-        std::size_t bytes = state_.position.bytes() + state_.previous.bytes() + sim::memory_bytes(work_) +
+        std::size_t bytes = state_.position.bytes() + state_.previous.bytes() + state_.velocity.bytes() +
+                            state_.previous_velocity.bytes() + sim::memory_bytes(work_) +
                             model_.pinned.capacity() + model_.pins.capacity() * sizeof(model_.pins[0]);
         for (const AlignedVector<Real>& rest : model_.grid->rest)
             bytes += rest.capacity() * sizeof(Real);
@@ -122,6 +140,10 @@ public:
         header.frame = frame_;
         header.steps = state_.steps;
         header.time = state_.time;
+        header.dt = model_.dt;
+        header.solver_step = state_.solver_step;
+        header.history = state_.history;
+        header.velocities = velocities(state_);
         std::vector<std::byte> bytes;
         append(bytes, &header, 1);
         for (const AlignedVector<Real>* axis : axes(state_))
@@ -149,14 +171,17 @@ public:
                                         std::to_string(header.rows) + " points; the scene has " +
                                         std::to_string(model_.grid->columns) + " x " +
                                         std::to_string(model_.grid->rows));
-        const std::size_t size = sizeof header + 6 * points() * sizeof(Real) + sizeof(std::uint64_t);
-        if (bytes.size() != size)
+        const std::size_t arrays = 2 + std::size_t{header.velocities};
+        const std::size_t size = sizeof header + 3 * arrays * points() * sizeof(Real) + sizeof(std::uint64_t);
+        if (arrays > 4 || bytes.size() != size)
             throw std::invalid_argument("a truncated or overlong state");
         std::uint64_t sum = 0;
         std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
         if (sum != checksum(bytes.first(bytes.size() - sizeof sum)))
             throw std::invalid_argument("a damaged state: its checksum does not match");
 
+        state_.velocity.resize(header.velocities > 0 ? points() : 0);
+        state_.previous_velocity.resize(header.velocities > 1 ? points() : 0);
         const std::byte* from = bytes.data() + sizeof header;
         for (AlignedVector<Real>* axis : axes(state_)) {
             std::memcpy(axis->data(), from, axis->size() * sizeof(Real));
@@ -166,13 +191,25 @@ public:
         state_.steps = header.steps;
         frame_ = header.frame;
         substep_ = header.substep < model_.substeps ? header.substep : 0;
+        state_.history = header.history;
+        state_.solver_step = header.solver_step;
+        work_.force_of_step = 0;
+        adopt(model_, state_, work_, header.dt);
     }
 
 private:
+    static std::uint32_t velocities(const State<Real>& state) {
+        return (state.velocity.size() != 0 ? 1u : 0u) + (state.previous_velocity.size() != 0 ? 1u : 0u);
+    }
+    /// The arrays that a state has, in the order of the file.
     template <class S>
     static auto axes(S& state) {
-        return std::array{&state.position.x, &state.position.y, &state.position.z,
-                          &state.previous.x, &state.previous.y, &state.previous.z};
+        std::vector<decltype(&state.position.x)> list;
+        for (auto* array : {&state.position, &state.previous, &state.velocity, &state.previous_velocity})
+            if (array->size() != 0)
+                for (auto* axis : {&array->x, &array->y, &array->z})
+                    list.push_back(axis);
+        return list;
     }
 
     Model<Real> model_;

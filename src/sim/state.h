@@ -12,8 +12,13 @@ template <class Real>
 struct State {
     Vec3Array<Real> position; ///< m
     Vec3Array<Real> previous; ///< m, one step earlier
-    double time = 0;          ///< s
+    /// m/s; empty for methods that keep it as position - previous (IntegratorTraits::velocity).
+    Vec3Array<Real> velocity;
+    Vec3Array<Real> previous_velocity; ///< m/s, one step earlier; empty for methods that do not look back
+    double time = 0;                   ///< s
     std::uint64_t steps = 0;
+    std::uint32_t history = 0; ///< how many steps back the previous values were computed with the present dt
+    double solver_step = 0;    ///< s, what a method that chooses its own steps tries next; 0: it has not begun
     bool operator==(const State&) const = default;
 };
 

@@ -4,6 +4,7 @@
 
 #include "sim/collision/colliders.h"
 #include "sim/collision/self_collision.h"
+#include "sim/forces/forces.h"
 #include "sim/integrators/integrator.h"
 #include "sim/stage_timer.h"
 #include "sim/stretch_limit.h"
@@ -16,6 +17,19 @@ State<Real> initial_state(const Description& description) {
     state.position = start_positions<Real>(description);
     state.previous = state.position;
     return state;
+}
+
+template <class Real>
+void begin(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    if (model.rules.start == StartRule::physical && !traits(model.integrator).velocity) {
+        // x(-dt) of a cloth at rest: L. Verlet's scheme is of second order only from there.
+        accelerations(model, state.position, nullptr, state.time, work, work.force);
+        const Real half = static_cast<Real>(0.5 * model.dt * model.dt);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::size_t i = 0; i < state.position.size(); ++i)
+                state.previous.axes()[axis][i] = state.position.axes()[axis][i] + half * work.force.axes()[axis][i];
+    }
+    adopt(model, state, work, model.dt);
 }
 
 template <class Real>
@@ -34,12 +48,39 @@ Workspace<Real> make_workspace(const Model<Real>& model, const Execution& execut
     return work;
 }
 
+namespace {
+
+/// Whether anything but the method can move points in a step.
+template <class Real>
+bool has_stages(const Model<Real>& model) {
+    return (model.rules.self_collision != SelfCollisionRule::none && model.thickness > 0) ||
+           !model.colliders.empty() || model.rules.limit != LimitRule::off;
+}
+
+/// Gives velocities what the stages did to positions since `from`, as M. Mueller et al. do it ("Position based
+/// dynamics", 2007, section 3); it is what Verlet, whose velocities are differences of positions, does by itself.
+template <class Real>
+void add_displacements(const Model<Real>& model, State<Real>& state, const Vec3Array<Real>& from) {
+    const Real dt = static_cast<Real>(model.dt);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Real *x = state.position.axes()[axis], *before = from.axes()[axis];
+        Real* v = state.velocity.axes()[axis];
+        for (std::size_t i = 0; i < state.position.size(); ++i)
+            v[i] += (x[i] - before[i]) / dt;
+    }
+}
+
+} // namespace
+
 template <class Real>
 StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
     StepCounts counts;
     work.choice.begin_step();
-    integrate(model, state, work);
-    if (model.rules.self_collision == SelfCollisionRule::cs184) {
+    integrate(model, state, work, counts);
+    const bool keep_velocity = state.velocity.size() != 0 && has_stages(model);
+    if (keep_velocity)
+        work.before_stages = state.position;
+    if (model.rules.self_collision != SelfCollisionRule::none) {
         const StageTimer timer(work, Stage::self_collision);
         counts.self_contacts = resolve_self_collision(model, state, work);
     }
@@ -47,18 +88,23 @@ StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& w
         const StageTimer timer(work, Stage::colliders);
         counts.contacts = resolve_colliders(model, state, work);
     }
-    if (model.rules.limit == LimitRule::cs184) {
+    if (model.rules.limit != LimitRule::off) {
         const StageTimer timer(work, Stage::limit);
         counts.shortened_springs = limit_stretch(model, state, work);
     }
+    const bool moved = counts.self_contacts + counts.contacts + counts.shortened_springs != 0;
+    if (keep_velocity && moved)
+        add_displacements(model, state, work.before_stages);
     work.choice.end_step();
     state.time += model.dt;
     state.steps += 1;
+    work.force_of_step = moved ? 0 : work.force_of_step;
     return counts;
 }
 
 #define CLOTHLAB_DEFINE(Real)                                                                                          \
     template State<Real> initial_state<Real>(const Description&);                                                      \
+    template void begin<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);                                     \
     template Workspace<Real> make_workspace<Real>(const Model<Real>&, const Execution&);                               \
     template StepCounts step<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);
 CLOTHLAB_DEFINE(float)

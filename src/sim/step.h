@@ -12,11 +12,17 @@ struct StepCounts {
     std::size_t self_contacts = 0;     ///< pairs pushed apart, counted from both sides
     std::size_t contacts = 0;          ///< points put out of a collider
     std::size_t shortened_springs = 0; ///< springs that the stretch limit shortened
+    std::size_t force_evaluations = 0; ///< of all points' forces
+    std::size_t solver_iterations = 0; ///< of the method's linear solver, or its sweeps over springs or points
 };
 
-/// A state of masses at rest at the start positions.
+/// A state of masses at rest at the start positions, as the course's start has it.
 template <class Real>
 State<Real> initial_state(const Description& description);
+
+/// Makes such a state the start of the model's method, by the model's rule for it.
+template <class Real>
+void begin(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);
 
 /// Scratch memory, kernels and threads for steps of the model.
 template <class Real>
@@ -28,6 +34,7 @@ StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& w
 
 #define CLOTHLAB_DECLARE(Real)                                                                                         \
     extern template State<Real> initial_state<Real>(const Description&);                                               \
+    extern template void begin<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);                              \
     extern template Workspace<Real> make_workspace<Real>(const Model<Real>&, const Execution&);                        \
     extern template StepCounts step<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);
 CLOTHLAB_DECLARE(float)

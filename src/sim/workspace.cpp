@@ -1,6 +1,7 @@
 #include "sim/workspace.h"
 
 #include "sim/collision/self_collision.h"
+#include "sim/integrators/integrator.h"
 
 namespace clothlab::sim {
 namespace {
@@ -28,17 +29,27 @@ void prepare(const Model<Real>& model, Workspace<Real>& work) {
     }
     if (model.rules.self_collision != SelfCollisionRule::none)
         prepare_self_collision(model, work);
+    const IntegratorTraits& method = traits(model.integrator);
+    work.arrays.resize(static_cast<std::size_t>(method.arrays));
+    for (Vec3Array<Real>& array : work.arrays)
+        array.resize(points);
+    if (method.velocity)
+        work.before_stages.resize(points);
+    work.force_of_step = 0;
+    work.solver.reset();
     work.choice.restart();
 }
 
 template <class Real>
 std::size_t memory_bytes(const Workspace<Real>& work) {
     const SelfCollisionWork<Real>& s = work.self_collision;
-    std::size_t bytes = work.force.bytes() + bytes_of(work.pin_previous) + bytes_of(work.proximity) +
+    std::size_t bytes = work.force.bytes() + work.before_stages.bytes() + bytes_of(work.pin_previous) + bytes_of(work.proximity) +
                         bytes_of(work.counts) + s.cell.bytes() + bytes_of(s.lists.first) + bytes_of(s.lists.next) +
                         s.anchor.bytes() + bytes_of(s.far_pairs) + bytes_of(s.pairs) + bytes_of(s.cursor) +
                         bytes_of(s.active) + bytes_of(s.partners) + bytes_of(s.bucket) + bytes_of(s.order) +
                         bytes_of(s.bucket_end) + bytes_of(s.sorted);
+    for (const Vec3Array<Real>& array : work.arrays)
+        bytes += array.bytes();
     for (const AlignedVector<Real>& scratch : work.sweep)
         bytes += bytes_of(scratch);
     return bytes;

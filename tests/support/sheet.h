@@ -24,6 +24,7 @@ struct Sheet {
           state(sim::initial_state<Real>(description)), start(state.position),
           work(sim::make_workspace(model, execution)) {
         work.force.resize(points());
+        sim::begin(model, state, work);
     }
 
     sim::StepCounts step() { return sim::step(model, state, work); }

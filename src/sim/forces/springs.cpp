@@ -68,7 +68,7 @@ void sweep_springs(const Model<Real>& model, const Vec3Array<Real>& position, Wo
     all.bending_k = model.k[static_cast<std::size_t>(SpringKind::bending)];
     all.gravity = {model.mass * model.gx, model.mass * model.gy, model.mass * model.gz};
     all.keep = model.keep;
-    all.c = dt2 / model.mass;
+    all.c = model.force_share * dt2 / model.mass;
     for_ranges(model, work, [&](int index, std::size_t begin, std::size_t end) {
         SweepArguments<Real> arguments = all;
         arguments.begin = begin;

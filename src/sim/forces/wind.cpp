@@ -34,21 +34,20 @@ Vec3 air_velocity(const Wind& wind, double time) {
     return {wind.velocity.x * factor, wind.velocity.y * factor, wind.velocity.z * factor};
 }
 
-template <class Real>
-void add_wind_forces(const Model<Real>& model, const State<Real>& state, Vec3Array<Real>& force) {
-    const Vec3 air = air_velocity(model.wind, state.time);
+namespace {
+
+/// Drag and lift; mean_velocity(a, b, c) is that of a triangle's corners.
+template <class Real, class MeanVelocity>
+void add_drag_and_lift(const Model<Real>& model, const Vec3Array<Real>& x, double time, MeanVelocity mean_velocity,
+                       Vec3Array<Real>& force) {
+    const Vec3 air = air_velocity(model.wind, time);
     const Triple<Real> wind{static_cast<Real>(air.x), static_cast<Real>(air.y), static_cast<Real>(air.z)};
     const Real drag = static_cast<Real>(0.5 * model.wind.air_density * model.wind.drag / 3);
     const Real lift = static_cast<Real>(0.5 * model.wind.air_density * model.wind.lift / 3);
-    const Real per_second = static_cast<Real>(1 / (3 * model.dt));
-    const Vec3Array<Real>&x = state.position, &p = state.previous;
 
     for_each_triangle(model.grid->columns, model.grid->rows, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        const auto mean_velocity = [&](const AlignedVector<Real>& now, const AlignedVector<Real>& before) {
-            return ((now[a] - before[a]) + (now[b] - before[b]) + (now[c] - before[c])) * per_second;
-        };
-        const Triple<Real> u{wind.x - mean_velocity(x.x, p.x), wind.y - mean_velocity(x.y, p.y),
-                             wind.z - mean_velocity(x.z, p.z)};
+        const Triple<Real> mean = mean_velocity(a, b, c);
+        const Triple<Real> u{wind.x - mean.x, wind.y - mean.y, wind.z - mean.z};
         const Triple<Real> e{x.x[b] - x.x[a], x.y[b] - x.y[a], x.z[b] - x.z[a]};
         const Triple<Real> f{x.x[c] - x.x[a], x.y[c] - x.y[a], x.z[c] - x.z[a]};
         const Triple<Real> cross{e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
@@ -74,10 +73,54 @@ void add_wind_forces(const Model<Real>& model, const State<Real>& state, Vec3Arr
     });
 }
 
+} // namespace
+
+template <class Real>
+void add_wind_forces(const Model<Real>& model, const State<Real>& state, Vec3Array<Real>& force) {
+    const Real per_second = static_cast<Real>(1 / (3 * model.dt));
+    const Vec3Array<Real>&x = state.position, &p = state.previous;
+    const auto mean_velocity = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const auto mean = [&](const AlignedVector<Real>& now, const AlignedVector<Real>& before) {
+            return ((now[a] - before[a]) + (now[b] - before[b]) + (now[c] - before[c])) * per_second;
+        };
+        return Triple<Real>{mean(x.x, p.x), mean(x.y, p.y), mean(x.z, p.z)};
+    };
+    add_drag_and_lift(model, x, state.time, mean_velocity, force);
+}
+
+template <class Real>
+void add_wind_forces(const Model<Real>& model, const Vec3Array<Real>& position, const Vec3Array<Real>& velocity,
+                     double time, Vec3Array<Real>& force) {
+    const auto mean_velocity = [&v = velocity](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        return Triple<Real>{(v.x[a] + v.x[b] + v.x[c]) / Real(3), (v.y[a] + v.y[b] + v.y[c]) / Real(3),
+                            (v.z[a] + v.z[b] + v.z[c]) / Real(3)};
+    };
+    add_drag_and_lift(model, position, time, mean_velocity, force);
+}
+
+template <class Real>
+void add_course_wind_forces(const Model<Real>& model, const Vec3Array<Real>& x, const Vec3Array<Real>& v, double time,
+                            Vec3Array<Real>& force) {
+    const Real m = model.mass;
+    const Real t = static_cast<Real>(model.wind.clock == WindClock::time ? time : model.dt);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const Triple<Real> w = course_wind<Real>({x.x[i], x.y[i], x.z[i]}, t);
+        const Triple<Real> r = course_air_resistance<Real>({force.x[i] / m, force.y[i] / m, force.z[i] / m},
+                                                           {v.x[i], v.y[i], v.z[i]});
+        force.x[i] -= Real(0.7) * m * (w.x + r.x);
+        force.y[i] -= Real(0.7) * m * (w.y + r.y);
+        force.z[i] -= Real(0.7) * m * (w.z + r.z);
+    }
+}
+
 #define CLOTHLAB_DEFINE(Real)                                                                                          \
     template Triple<Real> course_wind<Real>(Triple<Real>, Real);                                                       \
     template Triple<Real> course_air_resistance<Real>(Triple<Real>, Triple<Real>);                                     \
-    template void add_wind_forces<Real>(const Model<Real>&, const State<Real>&, Vec3Array<Real>&);
+    template void add_wind_forces<Real>(const Model<Real>&, const State<Real>&, Vec3Array<Real>&);                     \
+    template void add_wind_forces<Real>(const Model<Real>&, const Vec3Array<Real>&, const Vec3Array<Real>&, double,    \
+                                        Vec3Array<Real>&);                                                             \
+    template void add_course_wind_forces<Real>(const Model<Real>&, const Vec3Array<Real>&, const Vec3Array<Real>&,     \
+                                               double, Vec3Array<Real>&);
 CLOTHLAB_DEFINE(float)
 CLOTHLAB_DEFINE(double)
 #undef CLOTHLAB_DEFINE

@@ -1,15 +1,14 @@
 #include "sim/integrators/integrator.h"
 
-#include "sim/forces/gravity.h"
-#include "sim/forces/springs.h"
-#include "sim/forces/wind.h"
-#include "sim/stage_timer.h"
+#include <vector>
+
+#include "sim/forces/forces.h"
 
 namespace clothlab::sim {
 
 std::span<const IntegratorInfo> integrators() {
-    static constexpr IntegratorInfo list[] = {
-#define CLOTHLAB_INTEGRATOR(id, name, title, help) {IntegratorId::id, name, title, help},
+    static const std::vector<IntegratorInfo> list{
+#define CLOTHLAB_INTEGRATOR(id, name) {id##_traits, IntegratorId::id, name},
 #include "sim/integrators/integrators.def"
 #undef CLOTHLAB_INTEGRATOR
     };
@@ -17,20 +16,43 @@ std::span<const IntegratorInfo> integrators() {
 }
 
 template <class Real>
-void evaluate_forces(const Model<Real>& model, const State<Real>& state, Workspace<Real>& work) {
-    const StageTimer timer(work, Stage::forces);
-    work.force.resize(model.grid->points());
-    if (can_sweep(model, work)) {
-        sweep_springs(model, state.position, work, SweepSink::force, work.force);
-    } else {
-        set_gravity_forces(model, work.force);
-        add_spring_forces(model, state.position, work.force);
+void adopt(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, double dt) {
+    const IntegratorTraits& method = traits(model.integrator);
+    const bool had_velocity = state.velocity.size() != 0;
+    const std::size_t points = state.position.size();
+    if (had_velocity != method.velocity) {
+        const Real h = static_cast<Real>(dt);
+        Vec3Array<Real>&x = state.position, &p = state.previous;
+        Vec3Array<Real> a, v;
+        a.resize(points);
+        if (state.steps > 0) // at the start, no force has acted yet
+            accelerations(model, x, nullptr, state.time, work, a);
+        if (method.velocity) {
+            v.resize(points);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                for (std::size_t i = 0; i < points; ++i)
+                    v.axes()[axis][i] =
+                        (x.axes()[axis][i] - p.axes()[axis][i]) / h + Real(0.5) * h * a.axes()[axis][i];
+        } else {
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                for (std::size_t i = 0; i < points; ++i)
+                    p.axes()[axis][i] = x.axes()[axis][i] - h * state.velocity.axes()[axis][i] +
+                                        Real(0.5) * h * h * a.axes()[axis][i];
+        }
+        state.velocity = std::move(v);
+        state.history = 0;
+        state.solver_step = 0;
     }
-    if (model.wind.kind == WindKind::physical)
-        add_wind_forces(model, state, work.force);
+    if (method.velocity)
+        for (const std::uint32_t pin : model.pins)
+            state.velocity.x[pin] = state.velocity.y[pin] = state.velocity.z[pin] = 0;
+    if (method.history != (state.previous_velocity.size() != 0)) {
+        state.previous_velocity = method.history ? state.velocity : Vec3Array<Real>();
+        state.history = 0;
+    }
 }
 
-template void evaluate_forces<float>(const Model<float>&, const State<float>&, Workspace<float>&);
-template void evaluate_forces<double>(const Model<double>&, const State<double>&, Workspace<double>&);
+template void adopt<float>(const Model<float>&, State<float>&, Workspace<float>&, double);
+template void adopt<double>(const Model<double>&, State<double>&, Workspace<double>&, double);
 
 } // namespace clothlab::sim

@@ -2,51 +2,99 @@
 // contacts and the stretch limit follow it in step().
 #pragma once
 
-#include <optional>
+#include <array>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 
 #include "sim/model.h"
 #include "sim/state.h"
+#include "sim/step.h"
 #include "sim/workspace.h"
 
 namespace clothlab::sim {
 
-#define CLOTHLAB_INTEGRATOR(id, name, title, help)                                                                     \
+enum class Family : std::uint8_t { explicit_method, implicit_method, position_based };
+inline constexpr std::array<std::string_view, 3> family_names{"explicit", "implicit", "position-based"};
+
+/// Parameters of a method besides the step, as bits.
+enum MethodOption : unsigned { no_options = 0, uses_iterations = 1, uses_tolerance = 2, uses_pbd_stiffness = 4 };
+
+inline constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+/// What is known of a method before it is run.
+struct IntegratorTraits {
+    std::string_view title; ///< as people read it
+    std::string_view help;  ///< a sentence or two: what it is good for, and what not
+    Family family;
+    int order; ///< of the error of positions at a fixed time, as a power of dt; 0: it does not converge to the springs' motion
+    /// The largest omega dt at which an undamped oscillator does not grow, as a formula and as a number. The function is
+    /// given the share d of the motion that a step loses; it returns 0 for methods that always grow and no_limit for
+    /// those that never do.
+    std::string_view limit_formula;
+    double (*limit)(double d);
+    std::string_view cost;   ///< of a step
+    std::string_view source; ///< the paper, and where in it
+    // What its states hold and its steps need.
+    bool velocity;           ///< State::velocity; false: velocities are position - previous
+    bool history = false;    ///< State::previous_velocity
+    int arrays = 0;          ///< Workspace::arrays
+    unsigned options = no_options;
+};
+
+struct IntegratorInfo : IntegratorTraits {
+    IntegratorId id;
+    std::string_view name; ///< as scenes and the command line write it
+};
+
+#define CLOTHLAB_INTEGRATOR(id, name)                                                                                  \
+    extern const IntegratorTraits id##_traits;                                                                         \
     template <class Real>                                                                                              \
-    void id(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);                                      \
-    extern template void id<float>(const Model<float>&, State<float>&, Workspace<float>&);                             \
-    extern template void id<double>(const Model<double>&, State<double>&, Workspace<double>&);
+    void id(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, StepCounts& counts);                  \
+    extern template void id<float>(const Model<float>&, State<float>&, Workspace<float>&, StepCounts&);                \
+    extern template void id<double>(const Model<double>&, State<double>&, Workspace<double>&, StepCounts&);
 #include "sim/integrators/integrators.def"
 #undef CLOTHLAB_INTEGRATOR
 
-struct IntegratorInfo {
-    IntegratorId id;
-    std::string_view name;  ///< as scenes and the command line write it
-    std::string_view title; ///< as people read it
-    std::string_view help;
-};
+/// To be written at the end of a method's file.
+#define CLOTHLAB_DEFINE_INTEGRATOR(id)                                                                                 \
+    template void id<float>(const Model<float>&, State<float>&, Workspace<float>&, StepCounts&);                       \
+    template void id<double>(const Model<double>&, State<double>&, Workspace<double>&, StepCounts&);
 
 /// All methods, in the order of IntegratorId.
 std::span<const IntegratorInfo> integrators();
 
-/// Moves the masses by one time step with the model's method.
-template <class Real>
-void integrate(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
-    switch (model.integrator) {
-#define CLOTHLAB_INTEGRATOR(id, name, title, help)                                                                     \
+inline const IntegratorTraits& traits(IntegratorId id) {
+    switch (id) {
+#define CLOTHLAB_INTEGRATOR(id, name)                                                                                  \
     case IntegratorId::id:                                                                                             \
-        return id(model, state, work);
+        return id##_traits;
+#include "sim/integrators/integrators.def"
+#undef CLOTHLAB_INTEGRATOR
+    }
+    return course_verlet_traits;
+}
+
+/// Moves the masses by one time step with the model's method: positions, previous positions and velocities.
+template <class Real>
+void integrate(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, StepCounts& counts) {
+    switch (model.integrator) {
+#define CLOTHLAB_INTEGRATOR(id, name)                                                                                  \
+    case IntegratorId::id:                                                                                             \
+        return id(model, state, work, counts);
 #include "sim/integrators/integrators.def"
 #undef CLOTHLAB_INTEGRATOR
     }
 }
 
-/// Sets work.force to all forces of a state, in N: gravity, springs and the physical wind.
+/// Makes a state one of the model's method: with velocities or without. Positions and velocities stay what they are, to
+/// second order in `dt`, the length in s of the step that the state comes from:
+/// v = (x - p) / dt + a dt / 2, and p = x - v dt + a dt² / 2.
 template <class Real>
-void evaluate_forces(const Model<Real>& model, const State<Real>& state, Workspace<Real>& work);
+void adopt(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, double dt);
 
-extern template void evaluate_forces<float>(const Model<float>&, const State<float>&, Workspace<float>&);
-extern template void evaluate_forces<double>(const Model<double>&, const State<double>&, Workspace<double>&);
+extern template void adopt<float>(const Model<float>&, State<float>&, Workspace<float>&, double);
+extern template void adopt<double>(const Model<double>&, State<double>&, Workspace<double>&, double);
 
 } // namespace clothlab::sim
