@@ -8,7 +8,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-build_packages=(g++ cmake ninja-build pkgconf nlohmann-json3-dev libcli11-dev libhwy-dev)
+build_packages=(g++ cmake ninja-build pkgconf nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev)
 test_packages=(catch2)
 gui_packages=(libglm-dev libstb-dev python3-glad
     libx11-dev libxrandr-dev libxinerama-dev libxcursor-dev libxi-dev libxext-dev # GLFW on X11
