@@ -28,7 +28,8 @@ struct Workspace {
     /// Step after which arrays[0] holds the accelerations of the state, so that the next step need not compute them;
     /// 0: it does not.
     std::uint64_t force_of_step = 0;
-    std::shared_ptr<void> solver;   ///< what a method builds once for a model; it knows itself whether it still fits
+    std::shared_ptr<void> solver;   ///< what a method builds in its first step for a model
+    std::size_t solver_bytes = 0;   ///< that it holds
     Vec3Array<Real> before_stages;  ///< m; positions before contacts and limit, of methods with velocities
     std::vector<AlignedVector<Real>> sweep;        ///< per thread
     std::vector<std::array<Real, 3>> pin_previous; ///< m, of the pins, while the points are moved
