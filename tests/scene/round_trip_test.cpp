@@ -131,17 +131,20 @@ TEST_CASE("A scene that differs from the default in every member is read as it w
                           pair(stepping, d.stepping)));
     }
     {
-        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = scene.simulation.cloth;
-        const auto& [a0, b0, c0, d0, e0, f0, g0, h0, i0, j0, k0, l0, m0, n0] = standard.simulation.cloth;
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = scene.simulation.cloth;
+        const auto& [a0, b0, c0, d0, e0, f0, g0, h0, i0, j0, k0, l0, m0, n0, o0] = standard.simulation.cloth;
         REQUIRE(different(pair(a, a0), pair(b, b0), pair(c, c0), pair(d, d0), pair(e, e0), pair(f, f0), pair(g, g0),
-                          pair(h, h0), pair(i, i0), pair(j, j0), pair(k, k0), pair(l, l0), pair(m, m0), pair(n, n0)));
+                          pair(h, h0), pair(i, i0), pair(j, j0), pair(k, k0), pair(l, l0), pair(m, m0), pair(n, n0),
+                          pair(o, o0)));
     }
     {
-        const auto& [integrator, precision, frames, substeps, seed, gravity, further] = scene.simulation.stepping;
+        const auto& [integrator, precision, frames, substeps, iterations, tolerance, stiffness, seed, gravity,
+                     further] = scene.simulation.stepping;
         const sim::Stepping s;
-        REQUIRE(different(pair(precision, s.precision), pair(frames, s.frames_per_second), pair(substeps, s.substeps),
-                          pair(seed, s.seed), pair(gravity, s.gravity), pair(further, s.accelerations)));
-        REQUIRE(integrator == s.integrator); // the only one so far
+        REQUIRE(different(pair(integrator, s.integrator), pair(precision, s.precision),
+                          pair(frames, s.frames_per_second), pair(substeps, s.substeps), pair(iterations, s.iterations),
+                          pair(tolerance, s.tolerance), pair(stiffness, s.pbd_stiffness), pair(seed, s.seed),
+                          pair(gravity, s.gravity), pair(further, s.accelerations)));
     }
     {
         const auto& [kind, clock, velocity, gust, period, density, drag, lift] = scene.simulation.wind;
@@ -153,8 +156,8 @@ TEST_CASE("A scene that differs from the default in every member is read as it w
     {
         const auto& [damping, start, limit, friction, plane, self_collision] = scene.simulation.rules;
         const sim::Rules r;
-        REQUIRE(different(pair(limit, r.limit), pair(self_collision, r.self_collision)));
-        REQUIRE((damping == r.damping && start == r.start && friction == r.friction && plane == r.plane)); // one value
+        REQUIRE(different(pair(damping, r.damping), pair(start, r.start), pair(limit, r.limit),
+                          pair(friction, r.friction), pair(plane, r.plane), pair(self_collision, r.self_collision)));
     }
     require_same(scene, scene::read_scene(scene::write_scene(scene), "text"));
 }
