@@ -42,14 +42,14 @@ struct Cloth {
 struct Sphere {
     Vec3 origin;         ///< m
     double radius = 0.2; ///< m
-    double friction = 0; ///< 0 slides freely, 1 sticks
+    double friction = 0; ///< 0 to 1; course: the share of the way that is lost; physical: Coulomb's mu
     bool operator==(const Sphere&) const = default;
 };
 
 struct Plane {
     Vec3 point;           ///< m
     Vec3 normal{0, 1, 0}; ///< of any length but zero
-    double friction = 0;  ///< 0 slides freely, 1 sticks
+    double friction = 0;  ///< 0 to 1, as a sphere's
     bool operator==(const Plane&) const = default;
 };
 

@@ -14,8 +14,8 @@ template <class Real>
 std::variant<SphereModel<Real>, PlaneModel<Real>> collider_model(const Collider& collider) {
     const auto real = [](double v) { return static_cast<Real>(v); };
     if (const Sphere* s = std::get_if<Sphere>(&collider))
-        return SphereModel<Real>{real(s->origin.x), real(s->origin.y), real(s->origin.z), real(s->radius),
-                                 real(1.0 - s->friction)};
+        return SphereModel<Real>{real(s->origin.x), real(s->origin.y),       real(s->origin.z),
+                                 real(s->radius),   real(1.0 - s->friction), real(s->friction)};
     const Plane& p = std::get<Plane>(collider);
     // Scaled by its largest component first, so that no normal is too short or too long to be squared.
     Vec3 n = p.normal;
@@ -24,8 +24,8 @@ std::variant<SphereModel<Real>, PlaneModel<Real>> collider_model(const Collider&
         throw std::invalid_argument("a plane needs a normal that is not zero");
     n = {n.x / largest, n.y / largest, n.z / largest};
     const double length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-    return PlaneModel<Real>{real(p.point.x),    real(p.point.y),    real(p.point.z),       real(n.x / length),
-                            real(n.y / length), real(n.z / length), real(1.0 - p.friction)};
+    return PlaneModel<Real>{real(p.point.x),    real(p.point.y),    real(p.point.z),        real(n.x / length),
+                            real(n.y / length), real(n.z / length), real(1.0 - p.friction), real(p.friction)};
 }
 
 } // namespace
@@ -79,6 +79,8 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
     model.cell_x = real(w);
     model.cell_y = real(h);
     model.cell_z = real(std::max(w, h));
+    model.spacing_x = real(cloth.width / (cloth.num_width_points - 1));
+    model.spacing_y = real(cloth.height / (cloth.num_height_points - 1));
     for (const Collider& c : description.colliders)
         model.colliders.push_back(collider_model<Real>(c));
     model.wind = description.wind;

@@ -15,14 +15,16 @@ namespace clothlab::sim {
 template <class Real>
 struct SphereModel {
     Real x, y, z, radius;
-    Real slide; ///< 1 - friction
+    Real slide;    ///< 1 - friction, of the course's rule
+    Real friction; ///< Coulomb's mu, of the physical rule
 };
 
 template <class Real>
 struct PlaneModel {
     Real px, py, pz;
     Real nx, ny, nz; ///< unit normal
-    Real slide;      ///< 1 - friction
+    Real slide;      ///< 1 - friction, of the course's rule
+    Real friction;   ///< Coulomb's mu, of the physical rule
 };
 
 /// How far above a plane the course puts a point that crossed it, in m.
@@ -53,7 +55,8 @@ struct Model {
     Real course_keep = 1; ///< 1 - d; 1 under the physical rule, where -c v is one of the forces
     int substeps = 1;                        ///< per frame
     Real thickness = 0;                      ///< m
-    Real cell_x = 0, cell_y = 0, cell_z = 0; ///< m, cells of the self-collision
+    Real cell_x = 0, cell_y = 0, cell_z = 0; ///< m, cells of the course's self-collision
+    Real spacing_x = 0, spacing_y = 0;       ///< m, between neighbours in the flat cloth
     std::vector<std::variant<SphereModel<Real>, PlaneModel<Real>>> colliders;
     Wind wind;
     Rules rules;

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "sim/collision/physical_contacts.h"
+
 namespace clothlab::sim {
 namespace {
 
@@ -63,6 +65,8 @@ std::size_t resolve_by_kernels(const Model<Real>& model, State<Real>& state, Wor
 
 template <class Real>
 std::size_t resolve_colliders(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+    if (model.rules.friction != FrictionRule::cs184 || model.rules.plane != PlaneRule::cs184)
+        return resolve_physical_contacts(model, state);
     if (work.kernels)
         return resolve_by_kernels(model, state, work);
     std::size_t contacts = 0;

@@ -1,4 +1,4 @@
-// Contact of points with spheres and planes by the course's rules (docs/simulation.md, stage 4).
+// Contact of points with spheres and planes by the model's rules; here the course's (docs/simulation.md, stage 4).
 #pragma once
 
 #include "sim/model.h"

@@ -4,14 +4,9 @@
 
 #include "sim/model.h"
 #include "sim/state.h"
+#include "sim/triple.h"
 
 namespace clothlab::sim {
-
-/// One coordinate vector.
-template <class Real>
-struct Triple {
-    Real x, y, z;
-};
 
 /// The course's wind at a position (m), in the course's own unit, an acceleration. `t` is the length of a step or the
 /// simulated time, both in s.
