@@ -6,6 +6,7 @@
 #include "sim/collision/self_collision.h"
 #include "sim/forces/forces.h"
 #include "sim/integrators/integrator.h"
+#include "sim/iterated_limit.h"
 #include "sim/stage_timer.h"
 #include "sim/stretch_limit.h"
 
@@ -53,8 +54,8 @@ namespace {
 /// Whether anything but the method can move points in a step.
 template <class Real>
 bool has_stages(const Model<Real>& model) {
-    return (model.rules.self_collision != SelfCollisionRule::none && model.thickness > 0) ||
-           !model.colliders.empty() || model.rules.limit != LimitRule::off;
+    return (model.rules.self_collision != SelfCollisionRule::none && model.thickness > 0) || !model.colliders.empty() ||
+           model.rules.limit != LimitRule::off;
 }
 
 /// Gives velocities what the stages did to positions since `from`, as M. Mueller et al. do it ("Position based
@@ -90,7 +91,8 @@ StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& w
     }
     if (model.rules.limit != LimitRule::off) {
         const StageTimer timer(work, Stage::limit);
-        counts.shortened_springs = limit_stretch(model, state, work);
+        counts.shortened_springs = model.rules.limit == LimitRule::iterated ? limit_stretch_iterated(model, state)
+                                                                            : limit_stretch(model, state, work);
     }
     const bool moved = counts.self_contacts + counts.contacts + counts.shortened_springs != 0;
     if (keep_velocity && moved)
