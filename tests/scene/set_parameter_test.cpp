@@ -115,6 +115,43 @@ TEST_CASE("rules=cs184 sets all rules at once, a name that not every rule has is
     REQUIRE(with("rules", "cs184", scene) == collision_scene());
 }
 
+TEST_CASE("rules=physical sets every rule to its physical value: no limit, Coulomb's friction, all neighbours") {
+    const sim::Rules physical{.damping = sim::DampingRule::physical,
+                              .start = sim::StartRule::physical,
+                              .limit = sim::LimitRule::off,
+                              .friction = sim::FrictionRule::physical,
+                              .plane = sim::PlaneRule::physical,
+                              .self_collision = sim::SelfCollisionRule::neighbours};
+    scene::Scene wanted = collision_scene();
+    wanted.simulation.rules = physical;
+    REQUIRE(with("rules", "physical", collision_scene()) == wanted);
+    REQUIRE(with("rules", "\"physical\"", collision_scene()) == wanted);
+    wanted.simulation.rules.limit = sim::LimitRule::iterated; // and single ones on top
+    REQUIRE(with("rules.limit", "iterated", with("rules", "physical", collision_scene())) == wanted);
+    REQUIRE(with("rules", "cs184", wanted) == collision_scene());
+}
+
+TEST_CASE("Every value of every rule is set by its name, in files and as an argument, and changes no other rule") {
+    const std::vector<std::pair<std::string, std::vector<std::string>>> rules{
+        {"damping", {"cs184", "physical"}},      {"start", {"cs184", "physical"}},
+        {"limit", {"cs184", "off", "iterated"}}, {"friction", {"cs184", "physical"}},
+        {"plane", {"cs184", "physical"}},        {"self_collision", {"cs184", "none", "neighbours", "triangles"}}};
+    for (const auto& [rule, values] : rules) {
+        const scene::Field* field = scene::find_field("rules." + rule);
+        REQUIRE(field != nullptr);
+        REQUIRE(field->choices.size() == values.size());
+        for (std::size_t n = 0; n < values.size(); ++n) {
+            INFO(rule << " = " << values[n]);
+            scene::Scene wanted;
+            field->set(wanted, static_cast<double>(n));
+            REQUIRE(with("rules." + rule, values[n]) == wanted);
+            const std::string file = "{\"clothlab\": 1, \"rules\": {\"" + rule + "\": \"" + values[n] + "\"}}";
+            REQUIRE(scene::read_scene(file, "text").simulation.rules == wanted.simulation.rules);
+        }
+        require_refused("rules." + rule, "sometimes", values);
+    }
+}
+
 TEST_CASE("Pins and accelerations are set as lists, and emptied") {
     scene::Scene scene = with("cloth.pinned", "[[0,0],[49,3]]");
     REQUIRE(scene.simulation.cloth.pinned == std::vector<sim::GridPoint>{{0, 0}, {49, 3}});

@@ -1,5 +1,5 @@
-// Self-collision by the course's rule: points in the same cell push each other twice the thickness apart
-// (docs/simulation.md, stage 3).
+// Self-collision by the model's rule; here the course's: points in the same cell push each other twice the thickness
+// apart (docs/simulation.md, stage 3).
 #pragma once
 
 #include "sim/model.h"
@@ -8,8 +8,8 @@
 
 namespace clothlab::sim {
 
-/// Moves every free point by the mean of the pushes it gets, divided by the substeps, in index order. Returns the
-/// number of pairs found, counted from both sides.
+/// Moves every free point by the mean of the pushes it gets, divided by the substeps, in index order; or what the rule
+/// says instead (neighbours.h, triangles.h). Returns the number of pairs found, counted from both sides.
 template <class Real>
 std::size_t resolve_self_collision(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);
 

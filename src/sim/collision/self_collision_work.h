@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/aligned.h"
+#include "sim/collision/block_tree.h"
 #include "sim/kernels/kernels.h"
 
 namespace clothlab::sim {
@@ -18,9 +19,11 @@ struct CellLists {
 
 template <class Real>
 struct SelfCollisionWork {
-    // Plain loops.
+    // Plain loops over points.
     Vec3Array<Real> cell; ///< cell coordinates, whole numbers
     CellLists lists;
+
+    BlockTree<Real> tree; ///< of the rule for triangles
 
     // Kernels. The points where they were when the list of pairs was made: as long as no two points have moved against
     // each other by more than the skin since, a pair that is not on the list is out of reach.
