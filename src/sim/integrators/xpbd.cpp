@@ -1,0 +1,159 @@
+// Position based dynamics with compliance: M. Macklin, M. Mueller, N. Chentanez, "XPBD: position-based simulation of
+// compliant constrained dynamics", Motion in Games 2016. Each spring has the constraint C = |b - a| - rest, the
+// compliance 1/k and a multiplier lambda, zero at the start of each step, which an iteration changes by (equation 18)
+//     dlambda = -(C + alpha lambda) / (w_a + w_b + alpha),   alpha = 1 / (k dt²),   w inverse masses,
+// and with it the ends by w dlambda grad C (equation 17). One spring that does not turn is solved at once, and its step
+// is that of backward Euler. With many iterations every spring has the force -lambda / dt² that backward Euler gives
+// it, but each part of it acts along the direction that the spring had when that part was found, so that where springs
+// turn, the sum is backward Euler's only up to a share that falls with dt². (It is the residual g of the paper's
+// equation 8, which is taken to be zero.) With one iteration and more substeps it is the method of M. Macklin et al.,
+// "Small steps in physics simulation", Symposium on Computer Animation 2019.
+//
+// The springs are visited row by row, kind by kind, the horizontal ones every second first, so that springs visited one
+// after the other have no points in common: compilers make vectors of them. Everything is multiplied by k dt², so that
+// k = 0 divides by nothing.
+#include <cmath>
+
+#include "sim/integrators/displacement.h"
+#include "sim/integrators/integrator.h"
+#include "sim/stage_timer.h"
+
+namespace clothlab::sim {
+namespace {
+
+template <class Real>
+struct Points {
+    Real *x, *y, *z;
+    const Real* w; ///< inverse masses, 1/kg
+};
+
+/// Springs of one stencil entry in one row; the first one's ends are a and b, the next ones' are `stride` further.
+template <class Real>
+struct Springs {
+    std::size_t a, b, count;
+    Real stiffness; ///< k dt², kg
+    const Real* rest;
+    Real* lambda; ///< kg m; of the springs' owners
+};
+
+/// One spring after the other. No two of them have a point in common, which compilers cannot see by themselves.
+template <std::size_t stride, bool same_rest, class Real>
+void solve(Points<Real> points, Springs<Real> s) {
+    Real *ax = points.x + s.a, *ay = points.y + s.a, *az = points.z + s.a;
+    Real *bx = points.x + s.b, *by = points.y + s.b, *bz = points.z + s.b;
+    const Real *wa = points.w + s.a, *wb = points.w + s.b, *rest = same_rest ? s.rest : s.rest + s.a;
+    Real* lambda = s.lambda + s.a;
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC ivdep
+#endif
+    for (std::size_t n = 0; n < s.count; ++n) {
+        const std::size_t i = n * stride;
+        const Real dx = bx[i] - ax[i], dy = by[i] - ay[i], dz = bz[i] - az[i];
+        const Real length = std::sqrt(dx * dx + dy * dy + dz * dz);
+        const Real error = s.stiffness * (length - rest[same_rest ? 0 : i]) + lambda[i];
+        // Without a length there is no direction, and no force. (Numbers, since compilers make branches of other
+        // choices.)
+        const Real has_length = length > 0 ? Real(1) : Real(0);
+        const Real dlambda = has_length * -error / (Real(1) + s.stiffness * (wa[i] + wb[i]));
+        const Real move = dlambda / (length + (Real(1) - has_length));
+        lambda[i] += dlambda;
+        const Real move_a = wa[i] * move, move_b = wb[i] * move;
+        ax[i] -= move_a * dx;
+        ay[i] -= move_a * dy;
+        az[i] -= move_a * dz;
+        bx[i] += move_b * dx;
+        by[i] += move_b * dy;
+        bz[i] += move_b * dz;
+    }
+}
+
+template <bool same_rest, class Real>
+void sweep(const Model<Real>& model, Points<Real> points, const std::array<Real*, stencil_size>& lambda) {
+    const Grid<Real>& grid = *model.grid;
+    const auto columns = static_cast<std::size_t>(grid.columns);
+    const Real dt = static_cast<Real>(model.dt), dt2 = dt * dt;
+    for (int row = 0; row < grid.rows; ++row) {
+        const std::size_t begin = static_cast<std::size_t>(row) * columns;
+        for (std::size_t s = 0; s < stencil_size; ++s) {
+            const SpringStencil& stencil = spring_stencil[s];
+            if (!model.pulls(s) || row + stencil.rows < 0)
+                continue;
+            Springs<Real> springs{0, 0, 0, model.spring_constant(s) * dt2, grid.rest[s].data(), lambda[s]};
+            const auto across = static_cast<std::size_t>(std::abs(stencil.columns));
+            if (columns <= across)
+                continue;
+            if (stencil.rows != 0) {
+                springs.a = begin + (stencil.columns < 0 ? across : 0);
+                springs.b =
+                    begin - static_cast<std::size_t>(-stencil.rows) * columns + (stencil.columns > 0 ? across : 0);
+                springs.count = columns - across;
+                solve<1, same_rest>(points, springs);
+                continue;
+            }
+            // Within the row: springs that begin 2 `across` apart have no points in common.
+            for (std::size_t first = 0; first < 2 * across && first + across < columns; ++first) {
+                springs.b = begin + first;
+                springs.a = springs.b + across;
+                springs.count = (columns - across - first + 2 * across - 1) / (2 * across);
+                if (across == 1)
+                    solve<2, same_rest>(points, springs);
+                else
+                    solve<4, same_rest>(points, springs);
+            }
+        }
+    }
+}
+
+} // namespace
+
+template <class Real>
+void xpbd(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, StepCounts& counts) {
+    Vec3Array<Real>&first = work.arrays[0], &second = work.arrays[1], &wind = first;
+    {
+        const StageTimer timer(work, Stage::forces);
+        set_wind(model, state, work, wind);
+    }
+    const StageTimer timer(work, Stage::integrate);
+    predict(model, explicit_prediction(model), wind, state);
+
+    const std::array<Real*, stencil_size> lambda{first.x.data(),  first.y.data(),  first.z.data(),
+                                                 second.x.data(), second.y.data(), second.z.data()};
+    for (Real* multipliers : lambda)
+        std::fill(multipliers, multipliers + state.position.size(), Real(0));
+    AlignedVector<Real>& inverse_mass = work.arrays[2].x;
+    std::fill(inverse_mass.begin(), inverse_mass.end(), Real(1) / model.mass);
+    for (const std::uint32_t pin : model.pins)
+        inverse_mass[pin] = 0;
+
+    const Points<Real> points{state.position.x.data(), state.position.y.data(), state.position.z.data(),
+                              inverse_mass.data()};
+    for (int iteration = 0; iteration < model.iterations; ++iteration) {
+        if (model.grid->rest_mask == 0)
+            sweep<true>(model, points, lambda);
+        else
+            sweep<false>(model, points, lambda);
+    }
+    velocities_from_displacements(model, state);
+    counts.solver_iterations = static_cast<std::size_t>(model.iterations);
+}
+
+const IntegratorTraits xpbd_traits{
+    .title = "XPBD",
+    .help =
+        "Position based dynamics with the springs' own stiffness: never blows up, and is nearly backward Euler as far "
+        "as its iterations reach; too few leave stiff cloth too soft. Small steps: 1 iteration and more substeps.",
+    .family = Family::position_based,
+    .order = 1,
+    .limit_formula = "none",
+    .limit = [](double) { return no_limit; },
+    .cost = "iterations sweeps over the springs",
+    .source =
+        "M. Macklin, M. Mueller, N. Chentanez, \"XPBD\", Motion in Games 2016, equations 17 and 18; small steps: M. "
+        "Macklin et al., Symposium on Computer Animation 2019",
+    .velocity = true,
+    .arrays = 3,
+    .options = uses_iterations};
+
+CLOTHLAB_DEFINE_INTEGRATOR(xpbd)
+
+} // namespace clothlab::sim
