@@ -51,6 +51,33 @@ TEST_CASE("Projective dynamics and vertex block descent end in backward Euler's 
     REQUIRE(backward_euler_balance(sheet, v_n) < 1e-8);
 }
 
+TEST_CASE("For a point among pinned ones that pull, block descent is Newton's method: its digits double") {
+    sim::Description description = bare_cloth(5, 5);
+    for (int row = 0; row < 5; ++row)
+        for (int column = 0; column < 5; ++column)
+            if (column != 2 || row != 2)
+                description.cloth.pinned.push_back({column, row});
+    description.cloth.ks = 1e7; // the inertia hardly counts
+    description.stepping.integrator = descent;
+    const auto left = [&](int iterations) {
+        description.stepping.iterations = iterations;
+        Sheet<double> sheet(description);
+        sim::SplitMix64 random(9);
+        for (const std::uint32_t pin : sheet.model.pins) {
+            const sim::Vec3 at = sheet.position(pin), out = uniform_point(random, -0.1, 0.1);
+            sheet.place(pin, {3 * at.x + out.x, at.y + out.y, 3 * at.z + out.z});
+        }
+        sheet.place(sheet.at(2, 2), {1.7, 1.2, 1.4});
+        const sim::Vec3Array<double> v_n = sheet.state.velocity;
+        sheet.step();
+        return backward_euler_balance(sheet, v_n);
+    };
+    const double first = left(1), second = left(2), third = left(3);
+    INFO(first << ", " << second << ", " << third);
+    REQUIRE(second < 1e-4 * first);
+    REQUIRE(third < 1e-6 * second);
+}
+
 TEST_CASE("Ten iterations of 1 ms leave 1e-4 of backward Euler's step to projective dynamics, 2e-8 to block descent") {
     const Sheet<double> solution = stepped(descent, 1000);
     const double whole = farthest(solution, solution.state.previous);
