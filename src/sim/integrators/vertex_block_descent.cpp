@@ -12,6 +12,7 @@
 // So they may be moved in any order, by any number of threads, to the same bits. Iterations begin at x_n + what the
 // step is without springs, the paper's "inertia". Its adaptive beginning would need the last step's velocities, and
 // Chebyshev acceleration a parameter that fits the scene: we have neither.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -166,11 +167,20 @@ void vertex_block_descent(const Model<Real>& model, State<Real>& state, Workspac
         y[i] += d.y;
         z[i] += d.z;
     };
+    // The points of a colour among [begin, end).
+    const auto move_colour = [&](int colour, std::size_t begin, std::size_t end) {
+        const auto width = static_cast<std::size_t>(columns);
+        for (std::size_t row = begin / width; row * width < end; ++row) {
+            const int from = static_cast<int>(std::max(begin, row * width) - row * width);
+            const int to = static_cast<int>(std::min(end, (row + 1) * width) - row * width);
+            const int phase = (colour + 3 * static_cast<int>(row)) % colours; // -2 is 3 mod 5
+            for (int column = from + (phase - from % colours + colours) % colours; column < to; column += colours)
+                move(column, static_cast<int>(row));
+        }
+    };
     for (int iteration = 0; iteration < model.iterations; ++iteration)
         for (int colour = 0; colour < colours; ++colour)
-            for (int row = 0; row < rows; ++row)
-                for (int column = (colour + 3 * row) % colours; column < columns; column += colours) // -2 is 3 mod 5
-                    move(column, row);
+            for_ranges(model, work, [&](int, std::size_t begin, std::size_t end) { move_colour(colour, begin, end); });
     velocities_from_displacements(model, state);
     counts.solver_iterations = static_cast<std::size_t>(model.iterations);
 }
