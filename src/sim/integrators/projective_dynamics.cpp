@@ -64,10 +64,10 @@ void projective_dynamics(const Model<Real>& model, State<Real>& state, Workspace
 
 const IntegratorTraits projective_dynamics_traits{
     .title = "Projective dynamics",
-    .help = "Backward Euler by a matrix that is factorised once: the first iterations bring most, later ones little, "
-            "the less "
-            "the stiffer. A change of a parameter factorises anew, and the factor of a large grid takes long and much "
-            "memory.",
+    .help =
+        "Backward Euler by a matrix that is factorised once: the first iterations bring most, later ones little, the "
+        "less the stiffer. Every change of ks, step, mass or pins factorises anew: at 512 x 512 points that takes 8 s "
+        "and 0.4 GB.",
     .family = Family::implicit_method,
     .order = 1,
     .limit_formula = "none",
