@@ -2,12 +2,11 @@
 // a prediction without springs and end with v = (x - x_n) / dt.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 
-#include "sim/forces/forces.h"
-#include "sim/forces/gravity.h"
 #include "sim/integrators/combine.h"
+#include "sim/integrators/implicit.h"
 
 namespace clothlab::sim {
 
@@ -37,17 +36,10 @@ Prediction<Real> implicit_prediction(const Model<Real>& model) {
 /// Sets `wind` to the forces of the wind at the start of a step, in N; zero in still air.
 template <class Real>
 void set_wind(const Model<Real>& model, const State<Real>& state, Workspace<Real>& work, Vec3Array<Real>& wind) {
+    if (wind_forces(model, state, work, wind))
+        return;
     for (Real* axis : wind.axes())
         std::fill(axis, axis + wind.size(), Real(0));
-    if (model.wind.kind == WindKind::none)
-        return;
-    if (model.wind.kind == WindKind::course) { // its air resistance is made of all other forces
-        evaluate_conservative_forces(model, state.position, work, work.force);
-        wind = work.force;
-    }
-    add_wind(model, state.position, state.velocity, state.time, wind);
-    if (model.wind.kind == WindKind::course)
-        combine(wind, wind, Term<Real>{Real(-1), &work.force});
 }
 
 /// Sets `previous` to the position, and moves the position of every free point to its prediction.

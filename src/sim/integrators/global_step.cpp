@@ -34,6 +34,7 @@ GlobalStep& GlobalStep::of(const Model<Real>& model, double a, Workspace<Real>& 
         step.key_.columns = model.grid->columns;
         step.key_.rows = model.grid->rows;
         step.build(model.pinned);
+        work.solver_bytes = step.bytes();
     }
     return step;
 }
@@ -74,6 +75,15 @@ void GlobalStep::build(const std::vector<std::uint8_t>& pinned) {
                     static_cast<std::size_t>(factor_.permutationP().indices()[static_cast<Eigen::Index>(place_[i])]);
     } catch (const std::bad_alloc&) { // not usable, then
     }
+}
+
+std::size_t GlobalStep::bytes() const {
+    std::size_t bytes = place_.capacity() * sizeof(place_[0]) + values_.capacity() * sizeof(values_[0]);
+    if (usable_) { // the factor, its pivots twice, and the order of elimination and its inverse
+        const auto entries = static_cast<std::size_t>(factor_.matrixL().nestedExpression().nonZeros());
+        bytes += entries * (sizeof(double) + sizeof(int)) + free_ * (2 * sizeof(double) + 2 * sizeof(int));
+    }
+    return bytes;
 }
 
 void GlobalStep::solve() {

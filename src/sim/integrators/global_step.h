@@ -33,6 +33,9 @@ public:
     std::array<double, 4>& operator[](std::size_t point) { return values_[place_[point]]; }
     void solve();
 
+    /// All memory that it holds.
+    std::size_t bytes() const;
+
 private:
     /// All that the matrix depends on.
     struct Key {

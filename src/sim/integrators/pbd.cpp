@@ -4,7 +4,7 @@
 // error: equations 10 and 11, with k' = 1 - (1 - k)^(1/n), so that n iterations leave 1 - k of the error of a single
 // spring (section 3.3). Velocities are then the displacements (lines 12 to 15).
 //
-// Neither ks nor the mass is in this: how stiff the cloth is depends on k, on the number of iterations and on dt.
+// ks is not in this: how stiff the cloth is depends on k, on the number of iterations and on dt.
 #include <cmath>
 
 #include "sim/integrators/displacement.h"
