@@ -1,6 +1,6 @@
-// An exact oscillator made of cloth: two columns and two rows, structural springs only, the first row pinned, the second
-// moving along the columns, so that both columns are one linear spring with a mass at its end. The cloth is a kilometre
-// wide: that the columns move apart by rounding stretches no spring between them.
+// An exact oscillator made of cloth: two columns and two rows, structural springs only, the first row pinned, the
+// second moving along the columns, so that both columns are one linear spring with a mass at its end. The cloth is a
+// kilometre wide: that the columns move apart by rounding stretches no spring between them.
 #pragma once
 
 #include <algorithm>
@@ -69,8 +69,8 @@ inline Propagation fit(const std::vector<double>& x) {
 }
 
 /// Runs a series: `next` takes a step and gives the new displacement. The first steps of a method that looks back are
-/// left out: its further root, 1/3 or less for BDF2, has to die out first. Stops where the motion has grown beyond what a
-/// spring can follow or is lost in rounding.
+/// left out: its further root, 1/3 or less for BDF2, has to die out first. Stops where the motion has grown beyond what
+/// a spring can follow or is lost in rounding.
 template <class Next>
 std::vector<double> series(const sim::IntegratorInfo& method, double start, int steps, Next next) {
     std::vector<double> x{start};
@@ -91,7 +91,8 @@ std::vector<double> series(const sim::IntegratorInfo& method, double start, int 
     return x;
 }
 
-inline Propagation propagation(const sim::IntegratorInfo& method, double y, double course_damping = 0, int steps = 400) {
+inline Propagation propagation(const sim::IntegratorInfo& method, double y, double course_damping = 0,
+                               int steps = 400) {
     sim::Description description = column(1, y, method);
     description.cloth.damping = 100 * course_damping;
     Sheet<double> sheet(description);

@@ -1,5 +1,5 @@
-// Velocity Verlet (kick, drift, kick): W. C. Swope, H. C. Andersen, P. H. Berens, K. R. Wilson, Journal of Chemical Physics
-// 76 (1982), equations A.5 and A.6:
+// Velocity Verlet (kick, drift, kick): W. C. Swope, H. C. Andersen, P. H. Berens, K. R. Wilson, Journal of Chemical
+// Physics 76 (1982), equations A.5 and A.6:
 //     v(t + dt/2) = v + a dt/2,  x(t + dt) = x + dt v(t + dt/2),  v(t + dt) = v(t + dt/2) + a(t + dt) dt/2
 // With the physical rule's damping each half kick is the exact solution of v' = a - c v for constant a.
 #include <cmath>
@@ -43,11 +43,13 @@ const IntegratorTraits velocity_verlet_traits{
             "the energy.",
     .family = Family::explicit_method,
     .order = 2,
-    // Whatever the course's damping d: with half step velocities, x(n+1) - x(n) = (1-d) (x(n) - x(n-1)) - (1-d/2) y² x(n).
+    // Whatever the course's damping d: with half step velocities, x(n+1) - x(n) = (1-d) (x(n) - x(n-1)) - (1-d/2) y²
+    // x(n).
     .limit_formula = "2",
     .limit = [](double) { return 2.0; },
     .cost = "1 force evaluation, 2 after a contact or in wind",
-    .source = "W. C. Swope, H. C. Andersen, P. H. Berens, K. R. Wilson, Journal of Chemical Physics 76 (1982), A.5 and A.6",
+    .source =
+        "W. C. Swope, H. C. Andersen, P. H. Berens, K. R. Wilson, Journal of Chemical Physics 76 (1982), A.5 and A.6",
     .velocity = true,
     .arrays = 1};
 

@@ -61,9 +61,8 @@ struct Hanging {
     Catenary catenary;
 
     explicit Hanging(const sim::IntegratorInfo& method)
-        : sheet(description(method)),
-          catenary({0.8 * (masses + 1), 2.5}, 1, static_cast<double>(sheet.model.k[0]),
-                   -sheet.model.mass * sheet.model.gy) {
+        : sheet(description(method)), catenary({0.8 * (masses + 1), 2.5}, 1, static_cast<double>(sheet.model.k[0]),
+                                               -sheet.model.mass * sheet.model.gy) {
         for (int row = 1; row <= masses + 1; ++row)
             for (const std::size_t i : {sheet.at(0, row), sheet.at(1, row)}) {
                 const Vec2 x = catenary.points[static_cast<std::size_t>(row - 1)];

@@ -40,8 +40,8 @@ sim::Description fixed_at_both_ends(double y, const sim::IntegratorInfo& method)
     return description;
 }
 
-/// The frequencies of the cloth's own forces, ascending, in units of sqrt(k/m). Along a straight chain they are linear in
-/// the displacements, so that those by an eighth of a rest length give the stiffness matrix to rounding.
+/// The frequencies of the cloth's own forces, ascending, in units of sqrt(k/m). Along a straight chain they are linear
+/// in the displacements, so that those by an eighth of a rest length give the stiffness matrix to rounding.
 std::vector<double> frequencies(const sim::Description& description) {
     Sheet<double> sheet(description);
     const double by = 0.125 * description.cloth.height / (description.cloth.num_height_points - 1);
@@ -98,7 +98,8 @@ TEST_CASE("Every mode of a chain keeps its shape and has the method's frequency 
         return;
     const int j = GENERATE(1, 2, masses);
     INFO(method.name << ", mode " << j);
-    const double k = method.limit(0) > 0 ? 0.45 : 0.05; // omega dt of one spring alone; rounding must not outgrow the mode
+    const double k =
+        method.limit(0) > 0 ? 0.45 : 0.05; // omega dt of one spring alone; rounding must not outgrow the mode
     Sheet<double> sheet(column(masses, k, method));
     for (int i = 1; i <= masses; ++i)
         displace(sheet, i, 0.01 * shape(j, i));
@@ -125,7 +126,8 @@ TEST_CASE("A hanging chain of N masses is m g N(N+1)/(2k) longer, and finds that
     if (method.order == 0) // it has no k
         return;
     INFO(method.name);
-    // Methods that make every oscillation grow do so more slowly than damping calms it where omega² dt is below its rate.
+    // Methods that make every oscillation grow do so more slowly than damping calms it where omega² dt is below its
+    // rate.
     const double y = method.limit(0) > 0 ? 0.3 : 0.06;
     sim::Description description = column(masses, y, method);
     description.rules.damping = sim::DampingRule::physical;

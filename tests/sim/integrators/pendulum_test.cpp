@@ -31,7 +31,8 @@ double slower_by(double modulus) {
 /// The period of a pendulum let go at an angle from the vertical, over that of small swings. Four times the time to its
 /// first passage through the vertical.
 double period(const sim::IntegratorInfo& method, double angle) {
-    // The weight stretches the spring by g/omega² = 4e-6 of its length, and omega of the swing is 1/500 of the spring's.
+    // The weight stretches the spring by g/omega² = 4e-6 of its length, and omega of the swing is 1/500 of the
+    // spring's.
     sim::Description description = column(1, 0.3, method);
     description.stepping.frames_per_second = 5000;
     description.cloth.ks *= std::pow(5000.0 / 64, 2);
@@ -62,7 +63,8 @@ TEST_CASE("The elliptic integral gives the pendulum's periods of the textbooks")
     REQUIRE_THAT(slower_by(std::sin(5 * pi / 12)), WithinAbs(1.762204, 5e-7));
 }
 
-TEST_CASE("A pendulum's period grows with its angle as the elliptic integral does, under every method that can hold it") {
+TEST_CASE(
+    "A pendulum's period grows with its angle as the elliptic integral does, under every method that can hold it") {
     const sim::IntegratorInfo method = GENERATE(from_range(sim::integrators().begin(), sim::integrators().end()));
     if (method.limit(0) == 0 && method.order < 2) // a stiff spring is gone before the first swing
         return;
