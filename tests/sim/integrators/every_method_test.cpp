@@ -23,7 +23,7 @@ sim::IntegratorInfo any_method() {
 sim::Description busy_cloth(const sim::IntegratorInfo& method, sim::Precision precision) {
     sim::Description description;
     description.cloth.num_width_points = 22;
-    description.cloth.num_height_points = 70;
+    description.cloth.num_height_points = 40;
     description.cloth.thickness = 0.01;
     description.cloth.pinned = {{0, 0}, {21, 0}};
     description.colliders = {sim::Sphere{{0.5, 0.82, 0.5}, 0.2, 0.3}};
