@@ -2,6 +2,7 @@
 // precision is.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -20,14 +21,16 @@ struct Momentum {
     Vec3 angular; ///< kg m²/s about the origin
 };
 
-enum class Status : std::uint8_t { ok, diverged };
+/// Jitter: points hurl to and fro from step to step, but stay within bounds (Monitor).
+enum class Status : std::uint8_t { ok, jitter, diverged };
+inline constexpr std::array<const char*, 3> status_names{"ok", "jitter", "diverged"};
 
 struct Diagnostics {
     Energy energy;
     double max_strain = 0; ///< largest (length - rest) / rest of any spring; 0 when all are compressed
     double rms_speed = 0;  ///< m/s
     Status status = Status::ok;
-    std::string cause; ///< of a divergence: a sentence
+    std::string cause; ///< of anything but ok: a sentence
 };
 
 /// Energies, strain and speed of a state; velocities are its own, or, for methods that keep none, (position -

@@ -4,13 +4,16 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/description.h"
 #include "sim/diagnostics.h"
 #include "sim/execution.h"
+#include "sim/monitor.h"
 #include "sim/snapshot.h"
+#include "sim/stability.h"
 #include "sim/step.h"
 
 namespace clothlab::sim {
@@ -43,8 +46,16 @@ public:
     virtual Diagnostics diagnose() const = 0;
     virtual Momentum momentum() const = 0;
     virtual std::uint64_t hash() const = 0;
-    /// Fills a snapshot, reusing its memory.
-    virtual void capture(Snapshot& snapshot) const = 0;
+    /// How far the present state is from the method's stability limit. Costs as much as some hundred steps.
+    virtual StabilityMargin stability() const = 0;
+    /// Fills a snapshot, reusing its memory; the stability margin only if asked, for its cost.
+    virtual void capture(Snapshot& snapshot, bool with_stability) const = 0;
+    void capture(Snapshot& snapshot) const { capture(snapshot, false); }
+
+    /// Looks for trouble at the end of every frame from now on. Off at the start; does not change the run.
+    virtual void watch(bool on) = 0;
+    /// The first trouble since watching began or since the last change of the description or the state.
+    virtual const std::optional<Trouble>& trouble() const = 0;
 
     /// The instruction set in use, and the threads that the steps use now.
     virtual InstructionSet instructions() const = 0;

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sim/diagnostics.h"
 #include "sim/execution.h"
+#include "sim/monitor.h"
+#include "sim/stability.h"
 #include "sim/state.h"
 #include "sim/step.h"
 
@@ -20,7 +23,9 @@ struct Snapshot {
     int substep = 0;         ///< steps taken of the frame under way
     int substeps = 1;        ///< per frame
     double dt = 0;           ///< s
-    Diagnostics diagnostics;
+    Diagnostics diagnostics;                  ///< with the status and cause of `trouble`, if there is any
+    std::optional<Trouble> trouble;           ///< the run's first, while it is watched
+    std::optional<StabilityMargin> stability; ///< only where it was asked for
     StepCounts counts; ///< of the last step
     InstructionSet instructions = InstructionSet::scalar;
     int threads = 1;                 ///< of the last step

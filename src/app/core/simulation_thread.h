@@ -46,6 +46,12 @@ public:
     void step_frames(int frames);
     /// Simulated seconds per second that playing aims at; above 0.
     void set_speed(double speed);
+    /// Whether snapshots have the stability margin (Snapshot::stability): while stepping the newest one, renewed a few
+    /// times a second, when paused that of the state shown. Off at the start, for its cost.
+    void watch_stability(bool on);
+    /// Whether playing stops at the first trouble of a run. At the start it does for a divergence, after which there is
+    /// nothing to see, and not for jitter.
+    void pause_on_trouble(bool diverged, bool jitter);
 
     Published latest() const;
     /// Waits until all that was asked for so far has been done (steps taken, scenes built, playing begun): for tests
