@@ -115,10 +115,10 @@ void LabApp::take_published() {
     if (!lab_.snapshot)
         return;
     const sim::Diagnostics& d = lab_.snapshot->diagnostics;
-    const bool diverged = d.status == sim::Status::diverged;
-    if (diverged && !told_divergence_)
-        say(true, "The simulation blew up and was paused: " + d.cause + ".");
-    told_divergence_ = diverged;
+    if (d.status != told_ && d.status != sim::Status::ok)
+        say(true, (d.status == sim::Status::jitter ? "The cloth jitters" : "The simulation blew up") +
+                      std::string(lab_.playing ? ": " : " and was paused: ") + d.cause + ".");
+    told_ = d.status;
 }
 
 void LabApp::set_scene(scene::Scene scene, fs::path file) {

@@ -72,7 +72,7 @@ private:
     History history_;
     sim::Description passed_on_; ///< what the simulation thread has been told
     std::string refusal_;        ///< the simulation's last error that has been shown
-    bool told_divergence_ = false;
+    sim::Status told_ = sim::Status::ok; ///< the run's, as last reported
 
     // What the viewport shows; while all of it stays the same, it is not drawn again.
     struct Shown {

@@ -157,12 +157,29 @@ sim::Execution execution(const RunArguments& arguments) {
     return execution;
 }
 
+/// Infinity is null.
+Json stability(const sim::StabilityMargin& margin) {
+    const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+    return {{"omega", number(margin.omega)},
+            {"omega_bound", number(margin.omega_bound)},
+            {"omega_dt", number(margin.omega_dt)},
+            {"limit", number(margin.limit)},
+            {"dt_max_s", number(margin.dt_max)},
+            {"ks_max", number(margin.ks_max)},
+            {"density_min", number(margin.density_min)},
+            {"substeps_min", number(margin.substeps_min)}};
+}
+
 Json results(const RunArguments& arguments, const scene::Scene& scene, const sim::Simulation& simulation,
-             std::uint64_t frames, std::uint64_t steps, double wall_s, const std::optional<std::string>& divergence) {
+             std::uint64_t frames, std::uint64_t steps, double wall_s) {
     const sim::Stepping& stepping = simulation.description().stepping;
-    const sim::Diagnostics d = simulation.diagnose();
     sim::Snapshot snapshot;
     simulation.capture(snapshot);
+    const sim::Diagnostics& d = snapshot.diagnostics;
+    // Of a tangle there is no end of intersections to count, and no sense in it.
+    Json intersections;
+    if (d.status == sim::Status::ok)
+        intersections = sim::count_intersections(snapshot.columns, snapshot.rows, snapshot.positions);
     Json stages;
     for (std::size_t i = 0; i < sim::stage_names.size(); ++i)
         stages[sim::stage_names[i]] = simulation.stage_seconds()[i];
@@ -186,9 +203,10 @@ Json results(const RunArguments& arguments, const scene::Scene& scene, const sim
               {"total", d.energy.total()}}},
             {"max_strain", d.max_strain},
             {"rms_speed", d.rms_speed},
-            {"intersections", sim::count_intersections(snapshot.columns, snapshot.rows, snapshot.positions)},
-            {"status", divergence ? "diverged" : "ok"},
-            {"cause", divergence ? *divergence : ""},
+            {"intersections", intersections},
+            {"status", sim::status_names[static_cast<std::size_t>(d.status)]},
+            {"cause", d.cause},
+            {"stability", stability(simulation.stability())},
             {"hash", hex(simulation.hash())}};
 }
 
@@ -219,6 +237,7 @@ int run(const RunArguments& arguments) {
         if (!file.empty())
             Output(file, std::ios::app).close();
     simulation->time_stages(true);
+    simulation->watch(true);
     std::optional<Output> csv;
     if (!arguments.csv.empty()) {
         csv.emplace(arguments.csv);
@@ -228,7 +247,6 @@ int run(const RunArguments& arguments) {
 
     using Clock = std::chrono::steady_clock;
     double wall_s = 0;
-    std::optional<std::string> divergence; // the first one's cause: later states only repeat it
     const std::uint64_t first_step = simulation->steps();
     for (std::uint64_t done = 1; done <= frames; ++done) {
         const auto start = Clock::now();
@@ -236,10 +254,6 @@ int run(const RunArguments& arguments) {
         wall_s += std::chrono::duration<double>(Clock::now() - start).count();
         if (csv && done % static_cast<std::uint64_t>(arguments.every) == 0)
             write_csv_frame(*csv, *simulation);
-        if (divergence)
-            continue;
-        if (const sim::Diagnostics d = simulation->diagnose(); d.status == sim::Status::diverged)
-            divergence = "by frame " + std::to_string(simulation->frame()) + ", " + d.cause;
     }
     if (csv)
         csv->close();
@@ -254,8 +268,7 @@ int run(const RunArguments& arguments) {
     }
     if (arguments.csv == "-")
         return 0; // the table would end up among the rows
-    const Json json =
-        results(arguments, scene, *simulation, frames, simulation->steps() - first_step, wall_s, divergence);
+    const Json json = results(arguments, scene, *simulation, frames, simulation->steps() - first_step, wall_s);
     if (arguments.json)
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n"; // file names need not be UTF-8
     else

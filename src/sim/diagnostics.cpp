@@ -14,10 +14,6 @@
 namespace clothlab::sim {
 namespace {
 
-/// A cloth whose bounding box is this many times its own size has blown up: springs do not stretch so far, and a cloth
-/// that only falls or flies keeps its extent.
-constexpr double blown_up = 100;
-
 /// Velocities in m/s, wherever the method keeps them.
 template <class Real>
 class VelocityOf {

@@ -11,6 +11,10 @@
 
 namespace clothlab::sim {
 
+/// A cloth whose bounding box is this many times its own size has blown up: springs do not stretch so far, and a cloth
+/// that only falls or flies keeps its extent.
+inline constexpr double blown_up = 100;
+
 struct Energy {
     double kinetic = 0, spring = 0, gravity = 0; ///< J; gravity is zero at the origin
     double total() const { return kinetic + spring + gravity; }

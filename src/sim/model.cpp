@@ -60,6 +60,7 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
     Vec3 g = stepping.gravity;
     for (const Vec3& a : stepping.accelerations)
         g = {g.x + a.x, g.y + a.y, g.z + a.z};
+    model.density = cloth.density;
     model.mass = real(point_mass(cloth));
     model.gx = real(g.x);
     model.gy = real(g.y);

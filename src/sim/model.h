@@ -44,6 +44,7 @@ struct Model {
     Real spring_constant(std::size_t s) const { return k[static_cast<std::size_t>(spring_stencil[s].kind)]; }
     bool pulls(std::size_t s) const { return enabled[static_cast<std::size_t>(spring_stencil[s].kind)]; }
 
+    double density = 0;                      ///< kg/m²
     Real mass = 0;                           ///< kg per point
     Real gx = 0, gy = 0, gz = 0;             ///< m/s², gravity and all further accelerations
     double dt = 0;                           ///< s

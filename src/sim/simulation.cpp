@@ -70,6 +70,8 @@ public:
         } else {
             adopt(model_, state_, work_, dt);
         }
+        if (watched_)
+            monitor_.begin(state_);
         if (substep_ >= model_.substeps) { // the frame under way has fewer steps now and is over
             substep_ = 0;
             ++frame_;
@@ -77,10 +79,22 @@ public:
     }
 
     StepCounts step() override {
+        if (watched_ && substep_ + 1 >= model_.substeps)
+            monitor_.before_last_step(state_);
         counts_ = sim::step(model_, state_, work_);
         count_step();
+        if (watched_ && substep_ == 0)
+            monitor_.end_of_frame(model_, state_, frame_);
         return counts_;
     }
+
+    void watch(bool on) override {
+        watched_ = on;
+        monitor_ = {};
+        if (on)
+            monitor_.begin(state_);
+    }
+    const std::optional<Trouble>& trouble() const override { return monitor_.trouble(); }
 
     double time() const override { return state_.time; }
     std::uint64_t steps() const override { return state_.steps; }
@@ -93,7 +107,10 @@ public:
     Momentum momentum() const override { return sim::momentum(model_, state_); }
     std::uint64_t hash() const override { return sim::hash(state_); }
 
-    void capture(Snapshot& s) const override {
+    StabilityMargin stability() const override { return stability_margin(model_, state_); }
+
+    using Simulation::capture;
+    void capture(Snapshot& s, bool with_stability) const override {
         s.columns = model_.grid->columns;
         s.rows = model_.grid->rows;
         s.positions.resize(3 * points());
@@ -109,6 +126,12 @@ public:
         s.substeps = model_.substeps;
         s.dt = model_.dt;
         s.diagnostics = diagnose();
+        s.trouble = trouble();
+        if (s.trouble) {
+            s.diagnostics.status = s.trouble->status;
+            s.diagnostics.cause = s.trouble->cause;
+        }
+        s.stability = with_stability ? std::optional(stability()) : std::nullopt;
         s.counts = counts_;
         s.instructions = instructions();
         s.threads = threads();
@@ -118,7 +141,7 @@ public:
     int threads() const override { return work_.choice.threads(); }
     std::size_t memory_bytes() const override {
         std::size_t bytes = state_.position.bytes() + state_.previous.bytes() + state_.velocity.bytes() +
-                            state_.previous_velocity.bytes() + sim::memory_bytes(work_) +
+                            state_.previous_velocity.bytes() + sim::memory_bytes(work_) + monitor_.bytes() +
                             model_.pinned.capacity() + model_.pins.capacity() * sizeof(model_.pins[0]);
         for (const AlignedVector<Real>& rest : model_.grid->rest)
             bytes += rest.capacity() * sizeof(Real);
@@ -195,6 +218,8 @@ public:
         state_.solver_step = header.solver_step;
         work_.force_of_step = 0;
         adopt(model_, state_, work_, header.dt);
+        if (watched_)
+            monitor_.begin(state_);
     }
 
 private:
@@ -216,6 +241,8 @@ private:
     State<Real> state_;
     Workspace<Real> work_;
     StepCounts counts_;
+    Monitor<Real> monitor_;
+    bool watched_ = false;
 };
 
 } // namespace

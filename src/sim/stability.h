@@ -5,6 +5,8 @@
 // stretch limit are not part of it.
 #pragma once
 
+#include <limits>
+
 #include "sim/model.h"
 #include "sim/state.h"
 
@@ -21,17 +23,22 @@ struct StabilityMargin {
     double ks_max = 0;       ///< N/m
     double density_min = 0;  ///< kg/m²
     double substeps_min = 1; ///< per frame, a whole number
-    /// Whether small motions stay bounded. With a negative mass they never do, whatever dt: springs push.
-    bool stable() const { return omega_dt <= limit; }
+    /// Whether small motions stay bounded. With a negative mass they never do, whatever dt: springs push, and omega is
+    /// set to infinity.
+    bool stable() const { return omega < std::numeric_limits<double>::infinity() && omega_dt <= limit; }
     bool operator==(const StabilityMargin&) const = default;
 };
 
-/// The margin of a state. Computed in double precision by Lanczos' method; allocates. A state that is not finite has an
-/// infinite omega.
+/// The margin of a pose. Computed in double precision by Lanczos' method; allocates. Positions that are not finite have
+/// an infinite omega.
 template <class Real>
-StabilityMargin stability_margin(const Model<Real>& model, const State<Real>& state);
+StabilityMargin stability_margin(const Model<Real>& model, const Vec3Array<Real>& position);
+template <class Real>
+StabilityMargin stability_margin(const Model<Real>& model, const State<Real>& state) {
+    return stability_margin(model, state.position);
+}
 
-extern template StabilityMargin stability_margin<float>(const Model<float>&, const State<float>&);
-extern template StabilityMargin stability_margin<double>(const Model<double>&, const State<double>&);
+extern template StabilityMargin stability_margin<float>(const Model<float>&, const Vec3Array<float>&);
+extern template StabilityMargin stability_margin<double>(const Model<double>&, const Vec3Array<double>&);
 
 } // namespace clothlab::sim

@@ -56,6 +56,8 @@ void cells(Lab& lab, const sim::Snapshot& s) {
     const sim::Diagnostics& d = s.diagnostics;
     if (d.status == sim::Status::diverged) {
         cell(ICON_FA_TRIANGLE_EXCLAMATION, "diverged", d.cause, colour::error);
+    } else if (d.status == sim::Status::jitter) {
+        cell(ICON_FA_TRIANGLE_EXCLAMATION, lab.playing ? "jitters" : "jitters, paused", d.cause, colour::warning);
     } else {
         cell(lab.playing ? ICON_FA_PLAY : ICON_FA_PAUSE, lab.playing ? "playing" : "paused ",
              "The state of the simulation");

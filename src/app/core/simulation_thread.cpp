@@ -29,6 +29,8 @@ constexpr double publish_interval = 1.0 / 120;
 constexpr double forgiven = 0.1;
 /// Over which the real-time factor is measured.
 constexpr double factor_window = 0.5;
+/// The stability margin is computed no more often than this, and in no more than this share of the time.
+constexpr double margin_interval = 0.2, margin_share = 0.1;
 
 } // namespace
 
@@ -44,6 +46,12 @@ struct SimulationThread::Worker {
     bool in_frame = false; ///< playing has begun a frame that it is to complete
     bool dirty = true;     ///< something changed since the last publication
     double real_time_factor = 0;
+    bool pause_on_diverged = true, pause_on_jitter = false;
+
+    bool margin_wanted = false;
+    std::optional<sim::StabilityMargin> margin; ///< the newest, of the run as it is described now
+    std::uint64_t margin_steps = 0;             ///< of the state that it is of
+    Clock::time_point margin_due;
 
     // Pace: where simulated and wall time were when playing, speed or run last changed.
     Clock::time_point pace_wall, factor_wall;
@@ -57,7 +65,9 @@ struct SimulationThread::Worker {
         try {
             auto next = sim::Simulation::create(description, {.threads = most_threads()});
             next->time_stages(true);
+            next->watch(true);
             simulation = std::move(next);
+            margin.reset();
             ++run;
             error.clear();
             published_seconds = {};
@@ -77,6 +87,7 @@ struct SimulationThread::Worker {
             return start(description);
         try {
             simulation->change(description);
+            margin.reset();
             error.clear();
         } catch (const std::exception& e) {
             error = e.what();
@@ -105,14 +116,14 @@ struct SimulationThread::Worker {
             return false;
         }
         if (steps_to_take > 0) {
-            take_step();
             --steps_to_take;
+            take_step();
             return true;
         }
         if (frames_to_take > 0) {
             const std::uint64_t frame = simulation->frame();
             take_step();
-            if (simulation->frame() != frame)
+            if (simulation->frame() != frame && frames_to_take > 0) // trouble may have ended them all
                 --frames_to_take;
             return true;
         }
@@ -137,8 +148,31 @@ struct SimulationThread::Worker {
     }
 
     void take_step() {
+        const bool had_trouble = simulation->trouble().has_value();
         simulation->step();
         dirty = true;
+        const std::optional<sim::Trouble>& trouble = simulation->trouble();
+        if (!trouble)
+            return;
+        const bool diverged = trouble->status == sim::Status::diverged;
+        if (diverged ? pause_on_diverged : pause_on_jitter && !had_trouble) {
+            playing = in_frame = false;
+            steps_to_take = 0;
+            frames_to_take = 0;
+        }
+    }
+
+    /// The margin is of the state itself once that is at rest, and renewed now and then while it moves.
+    void renew_margin() {
+        const bool of_this_state = margin && margin_steps == simulation->steps();
+        if (of_this_state || (margin && !idle() && Clock::now() < margin_due))
+            return;
+        const Clock::time_point begin = Clock::now();
+        margin = simulation->stability();
+        margin_steps = simulation->steps();
+        const Clock::time_point end = Clock::now();
+        const double pause = std::max(margin_interval, seconds(end - begin) / margin_share);
+        margin_due = end + std::chrono::duration_cast<Clock::duration>(Seconds(pause));
     }
 
     void measure_factor() {
@@ -165,6 +199,10 @@ struct SimulationThread::Worker {
             return nullptr;
         auto s = std::make_shared<sim::Snapshot>();
         simulation->capture(*s);
+        if (margin_wanted) {
+            renew_margin();
+            s->stability = margin;
+        }
         const auto steps = static_cast<double>(simulation->steps() - published_steps);
         for (std::size_t i = 0; i < s->seconds_per_step.size(); ++i)
             s->seconds_per_step[i] = steps > 0 ? (simulation->stage_seconds()[i] - published_seconds[i]) / steps : 0;
@@ -172,11 +210,6 @@ struct SimulationThread::Worker {
         published_steps = simulation->steps();
         published_at = Clock::now();
         dirty = false;
-        if (s->diagnostics.status == sim::Status::diverged) { // nothing to see from here on
-            playing = in_frame = false;
-            steps_to_take = 0;
-            frames_to_take = 0;
-        }
         return s;
     }
 };
@@ -239,6 +272,20 @@ void SimulationThread::set_speed(double speed) {
     send([speed](Worker& w) {
         w.speed = speed;
         w.restart_pace();
+    });
+}
+
+void SimulationThread::watch_stability(bool on) {
+    send([on](Worker& w) {
+        w.margin_wanted = on;
+        w.dirty = true;
+    });
+}
+
+void SimulationThread::pause_on_trouble(bool diverged, bool jitter) {
+    send([diverged, jitter](Worker& w) {
+        w.pause_on_diverged = diverged;
+        w.pause_on_jitter = jitter;
     });
 }
 

@@ -95,7 +95,8 @@ const IntegratorTraits course_verlet_traits{
     .limit = [](double d) { return 2 * std::sqrt(std::max(0.0, 1 - d / 2)); },
     .cost = "1 force evaluation, fused with the step",
     .source = "L. Verlet, Physical Review 159 (1967), equation 4; damping as in the course's handout",
-    .velocity = false};
+    .velocity = false,
+    .exact_damping = true};
 
 CLOTHLAB_DEFINE_INTEGRATOR(course_verlet)
 

@@ -41,6 +41,8 @@ struct IntegratorTraits {
     bool history = false;    ///< State::previous_velocity
     int arrays = 0;          ///< Workspace::arrays
     unsigned options = no_options;
+    /// The physical rule's damping is Model::keep and force_share, not a force: limit is given its share.
+    bool exact_damping = false;
 };
 
 struct IntegratorInfo : IntegratorTraits {

@@ -35,7 +35,8 @@ const IntegratorTraits symplectic_euler_traits{
     .cost = "1 force evaluation",
     .source = "E. Hairer, C. Lubich, G. Wanner, Acta Numerica 12 (2003), section 1.2",
     .velocity = true,
-    .arrays = 1};
+    .arrays = 1,
+    .exact_damping = true};
 
 CLOTHLAB_DEFINE_INTEGRATOR(symplectic_euler)
 
