@@ -114,10 +114,22 @@ void LabApp::take_published() {
         lab_.snapshot = now.snapshot;
     if (!lab_.snapshot)
         return;
-    const sim::Diagnostics& d = lab_.snapshot->diagnostics;
-    if (d.status != told_ && d.status != sim::Status::ok)
-        say(true, (d.status == sim::Status::jitter ? "The cloth jitters" : "The simulation blew up") +
-                      std::string(lab_.playing ? ": " : " and was paused: ") + d.cause + ".");
+    tell_trouble(lab_.snapshot->diagnostics);
+    // Nobody looks at what a hidden panel would show, and it costs as much as some hundred steps.
+    const bool watched = lab_.report[static_cast<std::size_t>(ui::PanelId::stability)].drawn;
+    if (watched != watching_stability_)
+        simulation_.watch_stability(watched);
+    watching_stability_ = watched;
+}
+
+void LabApp::tell_trouble(const sim::Diagnostics& d) {
+    if (d.status != told_ && d.status != sim::Status::ok) {
+        const bool diverged = d.status == sim::Status::diverged;
+        const bool paused = diverged ? lab_.pause_on_blow_up : lab_.pause_on_jitter;
+        if (diverged || paused) // jitter that nobody asked to be stopped by is the status bar's
+            say(true, std::string(diverged ? "The simulation blew up" : "The cloth jitters") +
+                          (paused ? "; paused: " : ": ") + d.cause + ".");
+    }
     told_ = d.status;
 }
 
@@ -190,6 +202,10 @@ void LabApp::carry_out_requests() {
                 else if constexpr (std::is_same_v<R, ui::SetSpeed>) {
                     lab_.speed = r.speed;
                     simulation_.set_speed(r.speed);
+                } else if constexpr (std::is_same_v<R, ui::PauseOnTrouble>) {
+                    lab_.pause_on_blow_up = r.blow_up;
+                    lab_.pause_on_jitter = r.jitter;
+                    simulation_.pause_on_trouble(r.blow_up, r.jitter);
                 } else if constexpr (std::is_same_v<R, ui::Undo>)
                     go_to(history_.undo());
                 else if constexpr (std::is_same_v<R, ui::Redo>)

@@ -53,6 +53,7 @@ public:
 private:
     void set_scene(scene::Scene scene, std::filesystem::path file);
     void take_published();
+    void tell_trouble(const sim::Diagnostics& diagnostics);
     void pass_on_edits();
     void carry_out_requests();
     void draw_viewport();
@@ -72,7 +73,8 @@ private:
     History history_;
     sim::Description passed_on_; ///< what the simulation thread has been told
     std::string refusal_;        ///< the simulation's last error that has been shown
-    sim::Status told_ = sim::Status::ok; ///< the run's, as last reported
+    sim::Status told_ = sim::Status::ok; ///< what the user knows of the run's health
+    bool watching_stability_ = false;
 
     // What the viewport shows; while all of it stays the same, it is not drawn again.
     struct Shown {

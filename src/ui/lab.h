@@ -43,12 +43,15 @@ struct Restart {};
 struct SetSpeed {
     double speed;
 };
+struct PauseOnTrouble {
+    bool blow_up, jitter;
+};
 struct Undo {};
 struct Redo {};
 struct ResetLayout {};
 struct Quit {};
 using Request = std::variant<OpenScene, SaveScene, BrowseForScene, Screenshot, Play, StepFrame, StepSubstep, Restart,
-                             SetSpeed, Undo, Redo, ResetLayout, Quit>;
+                             SetSpeed, PauseOnTrouble, Undo, Redo, ResetLayout, Quit>;
 
 struct Message {
     bool error = false;
@@ -81,6 +84,7 @@ struct Lab {
     bool playing = false;
     double speed = 1;            ///< simulated seconds per second aimed at
     double real_time_factor = 0; ///< reached; 0 when unknown
+    bool pause_on_blow_up = true, pause_on_jitter = false;
     bool can_undo = false, can_redo = false;
     bool has_file_dialogs = false;
 

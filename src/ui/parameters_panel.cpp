@@ -1,7 +1,9 @@
 // Live sliders for everything that the simulation depends on.
 #include <cstdio>
 #include <imgui.h>
+#include <vector>
 
+#include "sim/integrators/integrator.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
@@ -16,6 +18,48 @@ void group(Lab& lab, const char* title, std::initializer_list<std::string_view> 
     if (!begin_fields((std::string(title) + "##fields").c_str()))
         return;
     for (const std::string_view key : keys)
+        field_row(lab, key);
+    end_fields();
+}
+
+/// Every method with what is known of it.
+std::span<const ChoiceText> method_texts() {
+    static const std::vector<ChoiceText> texts = [] {
+        std::vector<ChoiceText> list;
+        for (const sim::IntegratorInfo& i : sim::integrators())
+            list.push_back({std::string(i.title),
+                            std::string(i.help) + "\n\nOrder " + std::to_string(i.order) + ", " +
+                                std::string(sim::family_names[static_cast<std::size_t>(i.family)]) +
+                                ".\nLargest omega dt: " + std::string(i.limit_formula) + ".\nA step costs " +
+                                std::string(i.cost) + ".\n" + std::string(i.source) + "."});
+        return list;
+    }();
+    return texts;
+}
+
+/// The method, and those parameters that it has.
+void method(Lab& lab) {
+    if (!ImGui::CollapsingHeader("Method", ImGuiTreeNodeFlags_DefaultOpen) || !begin_fields("method##fields"))
+        return;
+    field_row(lab, "simulation.integrator", method_texts());
+    const sim::IntegratorTraits& traits = sim::traits(lab.scene.simulation.stepping.integrator);
+    if (traits.options & sim::uses_iterations)
+        field_row(lab, "simulation.iterations");
+    if (traits.options & sim::uses_tolerance)
+        field_row(lab, "simulation.tolerance");
+    if (traits.options & sim::uses_pbd_stiffness)
+        field_row(lab, "simulation.pbd_stiffness");
+    field_row(lab, "simulation.substeps");
+    field_row(lab, "simulation.frames_per_second");
+    end_fields();
+}
+
+/// Ways to do what the course's simulator does by a shortcut.
+void rules(Lab& lab) {
+    if (!ImGui::CollapsingHeader("Rules") || !begin_fields("rules##fields"))
+        return;
+    for (const char* key :
+         {"rules.damping", "rules.start", "rules.limit", "rules.friction", "rules.plane", "rules.self_collision"})
         field_row(lab, key);
     end_fields();
 }
@@ -84,11 +128,12 @@ void wind(Lab& lab) {
 } // namespace
 
 void draw_parameters(Lab& lab) {
-    group(lab, "Cloth", {"cloth.ks", "cloth.density", "cloth.damping", "cloth.thickness"});
+    const bool rate = lab.scene.simulation.rules.damping == sim::DampingRule::physical;
+    group(lab, "Cloth", {"cloth.ks", "cloth.density", rate ? "cloth.damping_rate" : "cloth.damping", "cloth.thickness"});
     group(lab, "Springs", {"cloth.enable_structural", "cloth.enable_shearing", "cloth.enable_bending"});
-    group(lab, "Time and gravity",
-          {"simulation.substeps", "simulation.frames_per_second", "simulation.gravity", "simulation.integrator"});
-    group(lab, "Contact and limits", {"rules.self_collision", "rules.limit"});
+    method(lab);
+    rules(lab);
+    group(lab, "Gravity", {"simulation.gravity"});
     wind(lab);
     colliders(lab);
     group(lab, "Grid and precision",

@@ -105,7 +105,7 @@ bool is_switch(const Field& f) {
     return f.type == FieldType::choice && f.choices.size() == 2 && (f.choices[1] == "none" || f.choices[1] == "off");
 }
 
-void edit_choice(Lab& lab, const Field& f) {
+void edit_choice(Lab& lab, const Field& f, std::span<const ChoiceText> texts) {
     if (is_switch(f)) {
         bool on = f.get(lab.scene) == 0;
         if (ImGui::Checkbox("##value", &on))
@@ -113,11 +113,15 @@ void edit_choice(Lab& lab, const Field& f) {
         return;
     }
     const auto index = static_cast<std::size_t>(f.get(lab.scene));
-    if (!ImGui::BeginCombo("##value", f.choices[index].data()))
+    const auto title = [&](std::size_t i) { return texts.empty() ? f.choices[i].data() : texts[i].title.c_str(); };
+    if (!ImGui::BeginCombo("##value", title(index), ImGuiComboFlags_HeightLarge))
         return;
-    for (std::size_t i = 0; i < f.choices.size(); ++i)
-        if (ImGui::Selectable(f.choices[i].data(), i == index))
+    for (std::size_t i = 0; i < f.choices.size(); ++i) {
+        if (ImGui::Selectable(title(i), i == index))
             f.set(lab.scene, static_cast<double>(i));
+        if (!texts.empty())
+            tooltip(texts[i].help);
+    }
     ImGui::EndCombo();
 }
 
@@ -148,7 +152,7 @@ void end_fields() {
     ImGui::EndTable();
 }
 
-void field_row(Lab& lab, std::string_view key) {
+void field_row(Lab& lab, std::string_view key, std::span<const ChoiceText> texts) {
     const Field* found = scene::find_field(key);
     IM_ASSERT(found && "a panel names a parameter that does not exist");
     const Field& f = *found;
@@ -158,7 +162,10 @@ void field_row(Lab& lab, std::string_view key) {
         vector ? f.get_vector(lab.scene) != f.get_vector(lab.loaded) : f.get(lab.scene) != f.get(lab.loaded);
     // Three numbers leave no room for a unit beside each.
     const std::string unit = vector && !f.unit.empty() ? " (" + std::string(f.unit) + ")" : "";
-    label_cell((std::string(f.label) + unit).c_str(), help_of(f), changed);
+    std::string help = help_of(f);
+    if (!texts.empty())
+        help = texts[static_cast<std::size_t>(f.get(lab.scene))].help + "\n\n" + std::string(f.help);
+    label_cell((std::string(f.label) + unit).c_str(), help, changed);
     switch (f.type) {
     case FieldType::boolean: {
         bool on = f.get(lab.scene) != 0;
@@ -167,7 +174,7 @@ void field_row(Lab& lab, std::string_view key) {
         break;
     }
     case FieldType::choice:
-        edit_choice(lab, f);
+        edit_choice(lab, f, texts);
         break;
     case FieldType::vector: {
         sim::Vec3 v = f.get_vector(lab.scene);
@@ -182,7 +189,7 @@ void field_row(Lab& lab, std::string_view key) {
     case FieldType::text:
         break; // has a list of its own where it is edited
     }
-    tooltip(help_of(f));
+    tooltip(help);
     if (reset_cell(changed)) {
         if (vector)
             f.set_vector(lab.scene, f.get_vector(lab.loaded));

@@ -1,6 +1,7 @@
 // Widgets that several panels share.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "scene/fields.h"
@@ -12,9 +13,15 @@ namespace clothlab::ui {
 bool begin_fields(const char* id);
 void end_fields();
 
+/// How an entry of a list reads, and what its tooltip says.
+struct ChoiceText {
+    std::string title, help;
+};
+
 /// A row that edits one parameter of lab.scene: slider, switch or list as its type asks for, with unit and tooltip, and
-/// a button that resets it to the loaded scene's value where it differs.
-void field_row(Lab& lab, std::string_view key);
+/// a button that resets it to the loaded scene's value where it differs. A list shows `texts`, one for each value, where
+/// there are any, and otherwise the names that files use.
+void field_row(Lab& lab, std::string_view key, std::span<const ChoiceText> texts = {});
 
 /// A row for a number that is not in the table of fields (a collider's). True when it was changed.
 bool number_row(const char* label, const char* help, double& value, double loaded, double min, double max,

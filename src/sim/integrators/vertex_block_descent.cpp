@@ -66,14 +66,14 @@ struct Gathered {
 };
 
 template <class Real>
-struct Block {
+struct PointBlock {
     Triple<Real> force{};
     Real xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0; ///< the Hessian
 };
 
 /// Adds the forces of the springs on their point and their Hessian, its part across compressed springs left out.
 template <class Real>
-void add_springs(const Gathered<Real>& g, Block<Real>& block) {
+void add_springs(const Gathered<Real>& g, PointBlock<Real>& block) {
     std::array<Real, neighbours> pull, across, along;
     for (std::size_t n = 0; n < neighbours; ++n) {
         const Real square = g.dx[n] * g.dx[n] + g.dy[n] * g.dy[n] + g.dz[n] * g.dz[n];
@@ -108,7 +108,7 @@ void add_springs(const Gathered<Real>& g, Block<Real>& block) {
 
 /// The solution of Hessian * d = force, by L D LT.
 template <class Real>
-Triple<Real> solve(const Block<Real>& b) {
+Triple<Real> solve(const PointBlock<Real>& b) {
     const Real l21 = b.xy / b.xx, l31 = b.xz / b.xx;
     const Real d2 = b.yy - l21 * b.xy;
     const Real u32 = b.yz - l31 * b.xy, l32 = u32 / d2;
@@ -156,7 +156,7 @@ void vertex_block_descent(const Model<Real>& model, State<Real>& state, Workspac
             g.rest[n] = spring.rest[(spring.own ? i : to) & grid.rest_mask];
             g.k[n] = spring.k;
         }
-        Block<Real> block;
+        PointBlock<Real> block;
         block.force = {weight.x + constant.x[i] + momentum * vx[i] - a * (x[i] - px[i]),
                        weight.y + constant.y[i] + momentum * vy[i] - a * (y[i] - py[i]),
                        weight.z + constant.z[i] + momentum * vz[i] - a * (z[i] - pz[i])};
