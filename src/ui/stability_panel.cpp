@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <imgui.h>
+#include <limits>
 
 #include "sim/integrators/integrator.h"
 #include "sim/units.h"
@@ -17,8 +18,15 @@ namespace {
 std::string number(double value, const char* unit) {
     if (value == std::numeric_limits<double>::infinity())
         return "any";
+    // Four digits, and no exponent as long as a lecturer can read it without.
+    const double digits = value == 0 || !std::isfinite(value) ? 0 : std::floor(std::log10(std::abs(value))) - 3;
+    const double unit_in_last_place = std::pow(10.0, std::max(digits, 0.0));
     char text[48];
-    std::snprintf(text, sizeof text, "%.4g%s%s", value, *unit ? " " : "", unit);
+    if (digits > 0 && digits < 6)
+        std::snprintf(text, sizeof text, "%.0f%s%s", std::round(value / unit_in_last_place) * unit_in_last_place,
+                      *unit ? " " : "", unit);
+    else
+        std::snprintf(text, sizeof text, "%.4g%s%s", value, *unit ? " " : "", unit);
     return text;
 }
 
@@ -93,8 +101,6 @@ void draw_stability(Lab& lab) {
         margin(lab, s, *s.stability);
     else
         ImGui::TextColored(colour::faint, "measuring ...");
-    if (s.trouble)
-        trouble(*s.trouble);
     bool blow_up = lab.pause_on_blow_up, jitter = lab.pause_on_jitter;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Pause on");
@@ -106,6 +112,8 @@ void draw_stability(Lab& lab) {
     tooltip("Pause when the cloth shakes from step to step, held together only by the stretch limit.");
     if (first || second)
         lab.ask(PauseOnTrouble{blow_up, jitter});
+    if (s.trouble)
+        trouble(*s.trouble);
 }
 
 } // namespace clothlab::ui
