@@ -19,6 +19,7 @@ namespace {
 
 struct Corner {
     int column, row;
+    std::size_t index; ///< of the point
 };
 using Edge = std::array<Corner, 2>;
 using Face = std::array<Corner, 3>;
@@ -47,10 +48,12 @@ public:
     std::size_t contacts = 0;
 
     void cells(Block a, Block b) {
+        near_in_grid_ = std::abs(a.column - b.column) <= 2 && std::abs(a.row - b.row) <= 2;
         points_and_faces(a, b);
         points_and_faces(b, a);
-        for (const Edge& one : edges_of(a))
-            for (const Edge& other : edges_of(b))
+        const Few<Edge, 5> of_a = edges_of(a), of_b = edges_of(b);
+        for (const Edge& one : of_a)
+            for (const Edge& other : of_b)
                 edges(one, other);
     }
 
@@ -60,18 +63,18 @@ private:
     Few<Corner, 4> points_of(Block c) const {
         Few<Corner, 4> points;
         const bool last_column = c.column == columns_ - 2, last_row = c.row == rows_ - 2;
-        points.add({c.column, c.row});
+        points.add(corner(c.column, c.row));
         if (last_column)
-            points.add({c.column + 1, c.row});
+            points.add(corner(c.column + 1, c.row));
         if (last_row)
-            points.add({c.column, c.row + 1});
+            points.add(corner(c.column, c.row + 1));
         if (last_column && last_row)
-            points.add({c.column + 1, c.row + 1});
+            points.add(corner(c.column + 1, c.row + 1));
         return points;
     }
     Few<Edge, 5> edges_of(Block c) const {
-        const Corner upper_left{c.column, c.row}, upper_right{c.column + 1, c.row}, lower_left{c.column, c.row + 1},
-            lower_right{c.column + 1, c.row + 1};
+        const Corner upper_left = corner(c.column, c.row), upper_right = corner(c.column + 1, c.row),
+                     lower_left = corner(c.column, c.row + 1), lower_right = corner(c.column + 1, c.row + 1);
         Few<Edge, 5> edges;
         edges.add({upper_left, upper_right});
         edges.add({upper_left, lower_left});
@@ -83,8 +86,10 @@ private:
         return edges;
     }
 
-    std::size_t index(Corner c) const { return static_cast<std::size_t>(c.row * columns_ + c.column); }
-    Triple<Real> now(Corner c) const { return at(x_, index(c)); }
+    Corner corner(int column, int row) const {
+        return {column, row, static_cast<std::size_t>(row * columns_ + column)};
+    }
+    Triple<Real> now(Corner c) const { return at(x_, c.index); }
     /// Where a corner is in the flat cloth.
     Triple<Real> flat(Corner c) const {
         return {static_cast<Real>(c.column) * model_.spacing_x, static_cast<Real>(c.row) * model_.spacing_y, 0};
@@ -93,15 +98,37 @@ private:
     void points_and_faces(Block of_points, Block of_faces) {
         const int c = of_faces.column, r = of_faces.row;
         // As for_each_triangle splits a cell.
-        const std::array<Face, 2> faces{Face{Corner{c, r}, {c + 1, r}, {c, r + 1}},
-                                        Face{Corner{c + 1, r}, {c + 1, r + 1}, {c, r + 1}}};
+        const Corner upper_right = corner(c + 1, r), lower_left = corner(c, r + 1);
+        const std::array<Face, 2> faces{Face{corner(c, r), upper_right, lower_left},
+                                        Face{upper_right, corner(c + 1, r + 1), lower_left}};
         for (const Corner& point : points_of(of_points))
             for (const Face& face : faces)
                 point_and_face(point, face);
     }
 
+    /// Whether the boxes of two features are at most the reach apart: most pairs of near cells are sorted out here.
+    template <std::size_t n, std::size_t m>
+    bool within_reach(const std::array<Corner, n>& a, const std::array<Corner, m>& b) const {
+        for (const auto* axis : {x_.x.data(), x_.y.data(), x_.z.data()}) {
+            Real low_a = axis[a[0].index], high_a = low_a, low_b = axis[b[0].index], high_b = low_b;
+            for (std::size_t k = 1; k < n; ++k) {
+                low_a = std::min(low_a, axis[a[k].index]);
+                high_a = std::max(high_a, axis[a[k].index]);
+            }
+            for (std::size_t k = 1; k < m; ++k) {
+                low_b = std::min(low_b, axis[b[k].index]);
+                high_b = std::max(high_b, axis[b[k].index]);
+            }
+            if (low_a - reach_ > high_b || low_b - reach_ > high_a)
+                return false;
+        }
+        return true;
+    }
+
     void point_and_face(Corner p, const Face& f) {
-        if (neighbours(p, f[0]) || neighbours(p, f[1]) || neighbours(p, f[2]))
+        if (near_in_grid_ && (neighbours(p, f[0]) || neighbours(p, f[1]) || neighbours(p, f[2])))
+            return;
+        if (!within_reach(std::array{p}, f))
             return;
         const auto weights = [&](auto place) {
             const std::array<Real, 3> w = closest_on_triangle(place(p), place(f[0]), place(f[1]), place(f[2]));
@@ -111,7 +138,10 @@ private:
     }
 
     void edges(const Edge& a, const Edge& b) {
-        if (neighbours(a[0], b[0]) || neighbours(a[0], b[1]) || neighbours(a[1], b[0]) || neighbours(a[1], b[1]))
+        if (near_in_grid_ &&
+            (neighbours(a[0], b[0]) || neighbours(a[0], b[1]) || neighbours(a[1], b[0]) || neighbours(a[1], b[1])))
+            return;
+        if (!within_reach(a, b))
             return;
         const auto weights = [&](auto place) {
             const auto [s, t] = closest_on_segments(place(a[0]), place(a[1]), place(b[0]), place(b[1]));
@@ -143,14 +173,14 @@ private:
             return;
         Real movable = 0; // the sum of squares of free corners' weights
         for (std::size_t k = 0; k < 4; ++k)
-            movable += model_.pinned[index(corners[k])] ? Real(0) : w[k] * w[k];
+            movable += model_.pinned[corners[k].index] ? Real(0) : w[k] * w[k];
         if (movable == 0)
             return;
         // Without pins it is 1 at the least. Where hardly more than a far corner of a pinned pair is free, the whole
         // push would throw that corner away.
         const Real share = (reach_ - length) / (length * std::max(movable, Real(0.25)));
         for (std::size_t k = 0; k < 4; ++k)
-            if (const std::size_t i = index(corners[k]); !model_.pinned[i])
+            if (const std::size_t i = corners[k].index; !model_.pinned[i])
                 put(x_, i, along(at(x_, i), share * w[k], d));
         contacts += 2;
     }
@@ -158,6 +188,7 @@ private:
     const Model<Real>& model_;
     Vec3Array<Real>& x_;
     Real reach_;
+    bool near_in_grid_ = false; ///< whether the two cells may have corners that are neighbours
     int columns_, rows_;
 };
 

@@ -68,7 +68,8 @@ TEST_CASE("Coulomb: a sliding mass accelerates with g (sin a - mu cos a), with e
             sim::Description description = coulomb(angle, mu);
             description.stepping.integrator = method.id;
             CHECK_THAT(slid(description, 1), WithinRel(a / 2, 0.005));
-            CHECK_THAT(slid<float>(description, 1), WithinRel(a / 2, 0.04)); // a step is 1e-6 m, a digit of x 1e-7
+            description.stepping.substeps = 4; // at 30, a step's g dt² is but a few roundings of x
+            CHECK_THAT(slid<float>(description, 1), WithinRel(a / 2, 0.02));
         }
 }
 
