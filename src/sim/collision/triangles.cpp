@@ -1,10 +1,9 @@
 // R. Bridson, R. Fedkiw, J. Anderson, "Robust treatment of collisions, contact and friction for cloth animation",
-// SIGGRAPH 2002: the proximities of section 6 (points and triangles, edges and edges), and of section 7.2 how a push is
-// shared out by barycentric weights, w_i / sum of w², here of displacements instead of impulses. Deviations: the
-// direction is that between the closest points, also where the closest point is on an edge or corner of the triangle
-// (they have the triangle's normal, and a margin around it); the missing distance is made up for in full in one step.
-// Their treatment of what passes through in one step (sections 7.1, 7.3 to 7.5) is not part of the rule: a point that
-// is through stays so.
+// SIGGRAPH 2002: the proximities of section 6 (points and triangles, edges and edges), and how section 7 shares a push
+// out among the corners, w_i / sum of w², here of displacements instead of impulses. Deviations: the direction is that
+// between the closest points, also where the closest point is on an edge or corner of the triangle (they have the
+// triangle's normal, and a margin around it); the missing distance is made up for in full in one step. Their friction,
+// and their search for what passes through within one step, are not part of the rule: a point that is through stays so.
 #include "sim/collision/triangles.h"
 
 #include <algorithm>
