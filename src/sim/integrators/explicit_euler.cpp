@@ -1,5 +1,8 @@
-// Explicit (forward) Euler: x' = x + dt v, v' = v + dt a(x, v). L. Euler, Institutiones calculi integralis I (1768), section
-// 650. On an oscillator it grows by sqrt(1 + (omega dt)²) in every step, however small: here to be seen failing.
+// Explicit (forward) Euler: x' = x + dt v, v' = v + dt a(x, v). L. Euler, Institutiones calculi integralis I (1768),
+// section 650. On an oscillator it grows by sqrt(1 + (omega dt)²) in every step, however small: here to be seen
+// failing.
+#include <cmath>
+
 #include "sim/forces/forces.h"
 #include "sim/integrators/combine.h"
 #include "sim/integrators/integrator.h"
@@ -25,8 +28,9 @@ const IntegratorTraits explicit_euler_traits{
     .help = "The simplest method, and the classic mistake: every oscillation grows, whatever the step.",
     .family = Family::explicit_method,
     .order = 1,
-    .limit_formula = "0",
-    .limit = [](double) { return 0.0; },
+    // A step's determinant is (1 - d) (1 + y²).
+    .limit_formula = "sqrt(d / (1 - d)): 0 undamped",
+    .limit = [](double d) { return std::sqrt(d / (1 - d)); },
     .cost = "1 force evaluation",
     .source = "L. Euler, Institutiones calculi integralis I (1768), section 650",
     .velocity = true,

@@ -29,9 +29,9 @@ struct IntegratorTraits {
     std::string_view help;  ///< a sentence or two: what it is good for, and what not
     Family family;
     int order; ///< of the error of positions at a fixed time, as a power of dt; 0: it does not converge to the springs' motion
-    /// The largest omega dt at which an undamped oscillator does not grow, as a formula and as a number. The function is
-    /// given the share d of the motion that a step loses; it returns 0 for methods that always grow and no_limit for
-    /// those that never do.
+    /// The largest y = omega dt at which an oscillator does not grow that loses the share d of its motion in each step,
+    /// and is not damped otherwise: as a formula and as a number. Without damping it is 0 for methods that always grow;
+    /// it is no_limit for those that never do.
     std::string_view limit_formula;
     double (*limit)(double d);
     std::string_view cost;   ///< of a step

@@ -43,8 +43,7 @@ const IntegratorTraits velocity_verlet_traits{
             "the energy.",
     .family = Family::explicit_method,
     .order = 2,
-    // Whatever the course's damping d: with half step velocities, x(n+1) - x(n) = (1-d) (x(n) - x(n-1)) - (1-d/2) y²
-    // x(n).
+    // A step has the trace (2 - d) (1 - y²/2) and the determinant 1 - d: unlike course Verlet's limit, this one stays.
     .limit_formula = "2",
     .limit = [](double) { return 2.0; },
     .cost = "1 force evaluation, 2 after a contact or in wind",
