@@ -13,7 +13,7 @@
 namespace clothlab::sim {
 
 /// A block's or a cell's place in its level.
-struct Block {
+struct GridBlock {
     int column = 0, row = 0;
 };
 
@@ -48,7 +48,7 @@ public:
                 for (int column = 0; column < levels_[level].columns; ++column) {
                     Box& box = levels_[level].at({column, row});
                     box = Box();
-                    for_children(level, {column, row}, [&](Block child) {
+                    for_children(level, {column, row}, [&](GridBlock child) {
                         const Box& inner = levels_[level - 1].at(child);
                         box.include(inner.low, inner.high);
                     });
@@ -85,30 +85,30 @@ private:
     struct Level {
         int columns = 0, rows = 0;
         std::vector<Box> boxes;
-        std::size_t index(Block b) const {
+        std::size_t index(GridBlock b) const {
             return static_cast<std::size_t>(b.row) * static_cast<std::size_t>(columns) +
                    static_cast<std::size_t>(b.column);
         }
-        Box& at(Block b) { return boxes[index(b)]; }
-        const Box& at(Block b) const { return boxes[index(b)]; }
+        Box& at(GridBlock b) { return boxes[index(b)]; }
+        const Box& at(GridBlock b) const { return boxes[index(b)]; }
     };
 
     template <class Visit>
-    void for_children(std::size_t level, Block b, Visit visit) const {
+    void for_children(std::size_t level, GridBlock b, Visit visit) const {
         const Level& below = levels_[level - 1];
         for (int row = 2 * b.row; row < 2 * b.row + 2 && row < below.rows; ++row)
             for (int column = 2 * b.column; column < 2 * b.column + 2 && column < below.columns; ++column)
-                visit(Block{column, row});
+                visit(GridBlock{column, row});
     }
 
     /// All pairs within a block.
     template <class Visit>
-    void within(std::size_t level, Block b, Real reach, Visit& visit) const {
+    void within(std::size_t level, GridBlock b, Real reach, Visit& visit) const {
         if (level == 0)
             return;
-        std::array<Block, 4> children;
+        std::array<GridBlock, 4> children;
         std::size_t count = 0;
-        for_children(level, b, [&](Block child) { children[count++] = child; });
+        for_children(level, b, [&](GridBlock child) { children[count++] = child; });
         for (std::size_t i = 0; i < count; ++i) {
             within(level - 1, children[i], reach, visit);
             for (std::size_t k = i + 1; k < count; ++k)
@@ -118,15 +118,15 @@ private:
 
     /// All pairs of one cell of each block.
     template <class Visit>
-    void between(std::size_t level, Block a, Block b, Real reach, Visit& visit) const {
+    void between(std::size_t level, GridBlock a, GridBlock b, Real reach, Visit& visit) const {
         const Box &box_a = levels_[level].at(a), &box_b = levels_[level].at(b);
         for (std::size_t k = 0; k < 3; ++k)
             if (!(box_a.low[k] - reach <= box_b.high[k] && box_b.low[k] - reach <= box_a.high[k]))
                 return;
         if (level == 0)
             return visit(a, b);
-        for_children(level, a, [&](Block in_a) {
-            for_children(level, b, [&](Block in_b) { between(level - 1, in_a, in_b, reach, visit); });
+        for_children(level, a, [&](GridBlock in_a) {
+            for_children(level, b, [&](GridBlock in_b) { between(level - 1, in_a, in_b, reach, visit); });
         });
     }
 

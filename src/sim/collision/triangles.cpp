@@ -46,7 +46,7 @@ public:
 
     std::size_t contacts = 0;
 
-    void cells(Block a, Block b) {
+    void cells(GridBlock a, GridBlock b) {
         near_in_grid_ = std::abs(a.column - b.column) <= 2 && std::abs(a.row - b.row) <= 2;
         points_and_faces(a, b);
         points_and_faces(b, a);
@@ -59,7 +59,7 @@ public:
 private:
     // Each cell owns its upper left point and the edges there, so that each feature has one owner; the last cells of
     // rows and columns own what is left.
-    Few<Corner, 4> points_of(Block c) const {
+    Few<Corner, 4> points_of(GridBlock c) const {
         Few<Corner, 4> points;
         const bool last_column = c.column == columns_ - 2, last_row = c.row == rows_ - 2;
         points.add(corner(c.column, c.row));
@@ -71,7 +71,7 @@ private:
             points.add(corner(c.column + 1, c.row + 1));
         return points;
     }
-    Few<Edge, 5> edges_of(Block c) const {
+    Few<Edge, 5> edges_of(GridBlock c) const {
         const Corner upper_left = corner(c.column, c.row), upper_right = corner(c.column + 1, c.row),
                      lower_left = corner(c.column, c.row + 1), lower_right = corner(c.column + 1, c.row + 1);
         Few<Edge, 5> edges;
@@ -94,7 +94,7 @@ private:
         return {static_cast<Real>(c.column) * model_.spacing_x, static_cast<Real>(c.row) * model_.spacing_y, 0};
     }
 
-    void points_and_faces(Block of_points, Block of_faces) {
+    void points_and_faces(GridBlock of_points, GridBlock of_faces) {
         const int c = of_faces.column, r = of_faces.row;
         // As for_each_triangle splits a cell.
         const Corner upper_right = corner(c + 1, r), lower_left = corner(c, r + 1);
@@ -197,7 +197,7 @@ template <class Real>
 std::size_t resolve_triangles(const Model<Real>& model, State<Real>& state, BlockTree<Real>& tree) {
     tree.fit(state.position);
     Resolver<Real> resolver(model, state.position);
-    tree.for_near_cells(Real(2) * model.thickness, [&](Block a, Block b) { resolver.cells(a, b); });
+    tree.for_near_cells(Real(2) * model.thickness, [&](GridBlock a, GridBlock b) { resolver.cells(a, b); });
     return resolver.contacts;
 }
 

@@ -23,10 +23,11 @@ TEST_CASE("The block tree finds every pair of cells with near boxes once, and no
             tree.resize(columns, rows);
             tree.fit(x);
             const int cells = (columns - 1) * (rows - 1);
-            const auto number = [&](sim::Block b) { return b.row * (columns - 1) + b.column; };
+            const auto number = [&](sim::GridBlock b) { return b.row * (columns - 1) + b.column; };
             std::vector<std::pair<int, int>> found, expected;
-            tree.for_near_cells(
-                reach, [&](sim::Block a, sim::Block b) { found.emplace_back(std::minmax(number(a), number(b))); });
+            tree.for_near_cells(reach, [&](sim::GridBlock a, sim::GridBlock b) {
+                found.emplace_back(std::minmax(number(a), number(b)));
+            });
             const auto near_along = [&](const auto& axis, int a, int b) {
                 const auto range = [&](int cell) {
                     const auto i = static_cast<std::size_t>(cell / (columns - 1) * columns + cell % (columns - 1));
