@@ -71,7 +71,8 @@ template <bool same_rest, class Real>
 void sweep(const Model<Real>& model, Points<Real> points, const std::array<Real*, stencil_size>& lambda) {
     const Grid<Real>& grid = *model.grid;
     const auto columns = static_cast<std::size_t>(grid.columns);
-    const Real dt = static_cast<Real>(model.dt), dt2 = dt * dt;
+    // Under the physical rule a force of the step, a spring's as much as gravity's, moves a point by that share of dt².
+    const Real dt = static_cast<Real>(model.dt), dt2 = model.force_share * dt * dt;
     for (int row = 0; row < grid.rows; ++row) {
         const std::size_t begin = static_cast<std::size_t>(row) * columns;
         for (std::size_t s = 0; s < stencil_size; ++s) {
