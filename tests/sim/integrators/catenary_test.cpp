@@ -60,9 +60,9 @@ struct Hanging {
     Sheet<double> sheet;
     Catenary catenary;
 
-    explicit Hanging(const sim::IntegratorInfo& method)
-        : sheet(description(method)), catenary({0.8 * (masses + 1), 2.5}, 1, static_cast<double>(sheet.model.k[0]),
-                                               -sheet.model.mass * sheet.model.gy) {
+    Hanging(const sim::IntegratorInfo& method, double y)
+        : sheet(description(method, y)), catenary({0.8 * (masses + 1), 2.5}, 1, static_cast<double>(sheet.model.k[0]),
+                                                  -sheet.model.mass * sheet.model.gy) {
         for (int row = 1; row <= masses + 1; ++row)
             for (const std::size_t i : {sheet.at(0, row), sheet.at(1, row)}) {
                 const Vec2 x = catenary.points[static_cast<std::size_t>(row - 1)];
@@ -70,8 +70,8 @@ struct Hanging {
             }
     }
 
-    static sim::Description description(const sim::IntegratorInfo& method) {
-        sim::Description result = column(masses + 1, method.limit(0) > 0 ? 0.3 : 0.02, method);
+    static sim::Description description(const sim::IntegratorInfo& method, double y) {
+        sim::Description result = column(masses + 1, y, method);
         for (const int c : {0, 1})
             result.cloth.pinned.push_back({c, masses + 1});
         result.stepping.gravity = {0, -0.02 * result.cloth.ks / sim::point_mass(result.cloth), 0};
@@ -83,7 +83,7 @@ struct Hanging {
 } // namespace
 
 TEST_CASE("Forces balance on the discrete elastic catenary") {
-    Hanging hanging(sim::integrators()[0]);
+    Hanging hanging(sim::integrators()[0], 0.3);
     Sheet<double>& sheet = hanging.sheet;
     sim::evaluate_conservative_forces(sheet.model, sheet.state.position, sheet.work, sheet.work.force);
     double residual = 0, sag = 0;
@@ -103,7 +103,10 @@ TEST_CASE("A chain that hangs in the discrete elastic catenary stays there under
     if (method.order == 0) // its rods do not stretch
         return;
     INFO(method.name);
-    Hanging hanging(method);
+    const double y = GENERATE(0.02, 0.3);
+    if (method.limit(0) == 0 && y > 0.1) // rounding outgrows the chain
+        return;
+    Hanging hanging(method, y);
     Sheet<double>& sheet = hanging.sheet;
     const sim::Vec3Array<double> before = sheet.state.position;
     for (int n = 0; n < 100; ++n)
@@ -111,5 +114,8 @@ TEST_CASE("A chain that hangs in the discrete elastic catenary stays there under
     double moved = 0;
     for (std::size_t i = 0; i < sheet.points(); ++i)
         moved = std::max(moved, norm(minus(sheet.position(i), Sheet<double>::coordinates(before, i))));
-    REQUIRE(moved < (method.family == sim::Family::position_based ? 1e-9 : 1e-11));
+    // XPBD adds up forces along the directions that its iterations come through: it balances where these differ, by a
+    // share of y² (xpbd.cpp).
+    const bool adds_up = method.family == sim::Family::position_based;
+    REQUIRE(moved < (adds_up ? 0.02 * y * y : 1e-11));
 }

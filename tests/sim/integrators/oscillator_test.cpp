@@ -124,6 +124,6 @@ TEST_CASE("Methods without a limit do not grow at omega dt = 100") {
             largest = std::max(largest, std::abs(displacement(sheet, 1)));
         }
         REQUIRE(largest < 0.01 * (1 + 1e-9));
-        REQUIRE(largest > 0);
+        REQUIRE((largest > 0) == (method.order > 0)); // a rigid rod does not move at all
     }
 }
