@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <variant>
 
 #include "sim/integrators/integrator.h"
 #include "sim/stability.h"
@@ -11,18 +12,22 @@
 namespace clothlab::sim {
 namespace {
 
+struct Threshold {
+    double turning; ///< change over displacement
+    double change;  ///< in shortest rest lengths
+};
 /// Of a mode at the limit of Verlet the change is 2 displacements, of Dormand-Prince 0.96, the least of all methods
-/// that have a limit. Sound is: cloth at ks 200 000, just below Verlet's limit, that folds onto itself, up to 0.45.
-constexpr double turning = 0.8;
-/// Methods that amplify every oscillation raise slower ones too: explicit Euler under the stretch limit settles at 0.3.
-constexpr double turning_without_limit = 0.2;
-/// Rest lengths; less than that, nobody sees.
-constexpr double visible = 1e-3;
+/// that have a limit; under the stretch limit it settles at 0.15 rest lengths. Sound is: cloth at ks 200 000, just
+/// below Verlet's limit, that folds onto itself, up to 0.45.
+constexpr Threshold beyond_limit{0.8, 1e-2};
+/// Methods that amplify every oscillation raise slower ones too: explicit Euler settles at 0.3, and 0.006 rest lengths.
+constexpr Threshold without_limit{0.2, 3e-3};
 constexpr int frames_on_end = 5;
-/// Frames; to keep the sound pose less often is cheaper.
-constexpr std::uint64_t sound_every = 8;
 /// Of the change over those frames; what grows faster is on its way to infinity, unless something stops it.
 constexpr double still_bounded = 2;
+
+/// Frames; to keep the sound pose more often would cost more.
+constexpr std::uint64_t sound_every = 8;
 
 /// Sums over all points and coordinates.
 struct Motion {
@@ -109,6 +114,17 @@ std::string text(const char* format, auto... arguments) {
     return buffer;
 }
 
+/// What lies on a collider hops, and that is sound: falls into it by g dt², and is put back or onto a plane's offset.
+/// The most by which that changes the displacement, in m.
+template <class Real>
+double hop(const Model<Real>& model) {
+    const auto is_plane = [](const auto& c) { return std::holds_alternative<PlaneModel<Real>>(c); };
+    const double offset = std::any_of(model.colliders.begin(), model.colliders.end(), is_plane) ? plane_offset : 0;
+    const auto d = [](Real v) { return static_cast<double>(v); };
+    return model.colliders.empty() ? 0
+                                   : offset + std::hypot(d(model.gx), d(model.gy), d(model.gz)) * model.dt * model.dt;
+}
+
 /// 218 600: groups of three digits, as people read them.
 std::string grouped(double value) {
     std::string digits = text("%.0f", value);
@@ -127,10 +143,14 @@ std::string reason(const Model<Real>& model, const Vec3Array<Real>& sound, const
     StabilityMargin margin = stability_margin(model, sound);
     if (margin.stable() && all_finite(now))
         margin = stability_margin(model, now);
-    if (margin.omega_dt <= margin.limit)
-        return text("not by stiffness (omega dt = %.3g <= %.3g); look at wind, damping and accelerations",
-                    margin.omega_dt, margin.limit);
     const std::string name(method.title);
+    if (margin.limit == no_limit && margin.omega_dt > 1)
+        return text("%s is stable, but its step does not resolve the springs (omega dt = %.3g): what contacts, wind or "
+                    "accelerations set off rings on",
+                    name.c_str(), margin.omega_dt);
+    if (margin.omega_dt <= margin.limit)
+        return text("not by stiffness (omega dt = %.3g <= %.3g); look at contacts, wind, damping and accelerations",
+                    margin.omega_dt, margin.limit);
     if (margin.limit == 0)
         return text("%s amplifies every oscillation, whatever the step (omega dt = %.3g)", name.c_str(),
                     margin.omega_dt);
@@ -177,9 +197,9 @@ void Monitor<Real>::end_of_frame(const Model<Real>& model, const State<Real>& st
         return report(Status::diverged, "the cloth is over 100 times its own size");
     if (change > grid.diagonal)
         return report(Status::diverged, "points change course by the size of the cloth in one step");
-    const double most = traits(model.integrator).limit(0) == 0 ? turning_without_limit : turning;
-    const bool turns = now.change > most * most * 0.5 * now.displacement;
-    if (!turns || change < visible * static_cast<double>(grid.shortest)) {
+    const Threshold& least = traits(model.integrator).limit(0) == 0 ? without_limit : beyond_limit;
+    const bool turns = now.change > least.turning * least.turning * 0.5 * now.displacement;
+    if (!turns || change < std::max(least.change * static_cast<double>(grid.shortest), hop(model))) {
         jittery_frames_ = 0;
         if (frame % sound_every == 0)
             sound_ = state.position;

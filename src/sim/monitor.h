@@ -28,8 +28,9 @@ struct Trouble {
 /// Jitter: smooth motion changes little from one step to the next, while a mode beyond the stability limit turns round
 /// in every step or two. So it is jitter when the root mean square over all points of the change of displacement
 /// between two successive steps is larger than 0.8 of that of the displacements themselves (pure alternation has 2) and
-/// than a thousandth of the shortest rest length, in more than five frames on end (an impact is over sooner) without
-/// growing to more than twice the size meanwhile.
+/// than a hundredth of the shortest rest length, in more than five frames on end (an impact is over sooner) without
+/// growing to more than twice the size meanwhile. For methods without any stable step, which make slower oscillations
+/// grow too, it is 0.2 and three thousandths.
 ///
 /// Divergence: positions that are not finite, a bounding box of 100 times the cloth's size, or a root mean square
 /// change of displacement above that size.
