@@ -140,6 +140,8 @@ std::string reason(const Model<Real>& model, const Vec3Array<Real>& sound, const
     const IntegratorTraits& method = traits(model.integrator);
     if (model.mass < 0)
         return "the density is negative, so springs push where they should pull";
+    if (!all_finite(sound))
+        return "it was so from the beginning";
     StabilityMargin margin = stability_margin(model, sound);
     if (margin.stable() && all_finite(now))
         margin = stability_margin(model, now);

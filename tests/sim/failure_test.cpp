@@ -231,6 +231,9 @@ TEST_CASE("A point that is no longer finite is found, and named") {
     REQUIRE(run.status() == sim::Status::diverged);
     REQUIRE((run.monitor.trouble()->column == 17 && run.monitor.trouble()->row == 31));
     REQUIRE_THAT(run.monitor.trouble()->cause, ContainsSubstring("no longer finite"));
+    run.monitor.begin(run.sheet.state); // as after a saved state that is not finite
+    run.step_frame();
+    REQUIRE_THAT(run.monitor.trouble()->cause, ContainsSubstring("from the beginning"));
 }
 
 TEST_CASE("Watching a run changes no bit of it and allocates nothing, and a change or a saved state begins anew") {
