@@ -9,13 +9,12 @@
 // equation 8, which is taken to be zero.) With one iteration and more substeps it is the method of M. Macklin et al.,
 // "Small steps in physics simulation", Symposium on Computer Animation 2019.
 //
-// The springs are visited row by row, kind by kind, the horizontal ones every second first, so that springs visited one
-// after the other have no points in common: compilers make vectors of them. Everything is multiplied by k dt², so that
-// k = 0 divides by nothing.
+// Everything is multiplied by k dt², so that k = 0 divides by nothing.
 #include <cmath>
 
 #include "sim/integrators/displacement.h"
 #include "sim/integrators/integrator.h"
+#include "sim/integrators/spring_rows.h"
 #include "sim/stage_timer.h"
 
 namespace clothlab::sim {
@@ -27,22 +26,14 @@ struct Points {
     const Real* w; ///< inverse masses, 1/kg
 };
 
-/// Springs of one stencil entry in one row; the first one's ends are a and b, the next ones' are `stride` further.
-template <class Real>
-struct Springs {
-    std::size_t a, b, count;
-    Real stiffness; ///< k dt², kg
-    const Real* rest;
-    Real* lambda; ///< kg m; of the springs' owners
-};
-
-/// One spring after the other. No two of them have a point in common, which compilers cannot see by themselves.
+/// One spring after the other; rest lengths and multipliers are those of the springs' stencil entry, by owner.
 template <std::size_t stride, bool same_rest, class Real>
-void solve(Points<Real> points, Springs<Real> s) {
+void solve(Points<Real> points, SpringRow s, Real stiffness /* k dt², kg */, const Real* rest_lengths,
+           Real* multipliers) {
     Real *ax = points.x + s.a, *ay = points.y + s.a, *az = points.z + s.a;
     Real *bx = points.x + s.b, *by = points.y + s.b, *bz = points.z + s.b;
-    const Real *wa = points.w + s.a, *wb = points.w + s.b, *rest = same_rest ? s.rest : s.rest + s.a;
-    Real* lambda = s.lambda + s.a;
+    const Real *wa = points.w + s.a, *wb = points.w + s.b, *rest = same_rest ? rest_lengths : rest_lengths + s.a;
+    Real* lambda = multipliers + s.a;
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC ivdep
 #endif
@@ -50,11 +41,11 @@ void solve(Points<Real> points, Springs<Real> s) {
         const std::size_t i = n * stride;
         const Real dx = bx[i] - ax[i], dy = by[i] - ay[i], dz = bz[i] - az[i];
         const Real length = std::sqrt(dx * dx + dy * dy + dz * dz);
-        const Real error = s.stiffness * (length - rest[same_rest ? 0 : i]) + lambda[i];
+        const Real error = stiffness * (length - rest[same_rest ? 0 : i]) + lambda[i];
         // Without a length there is no direction, and no force. (Numbers, since compilers make branches of other
         // choices.)
         const Real has_length = length > 0 ? Real(1) : Real(0);
-        const Real dlambda = has_length * -error / (Real(1) + s.stiffness * (wa[i] + wb[i]));
+        const Real dlambda = has_length * -error / (Real(1) + stiffness * (wa[i] + wb[i]));
         const Real move = dlambda / (length + (Real(1) - has_length));
         lambda[i] += dlambda;
         const Real move_a = wa[i] * move, move_b = wb[i] * move;
@@ -69,40 +60,12 @@ void solve(Points<Real> points, Springs<Real> s) {
 
 template <bool same_rest, class Real>
 void sweep(const Model<Real>& model, Points<Real> points, const std::array<Real*, stencil_size>& lambda) {
-    const Grid<Real>& grid = *model.grid;
-    const auto columns = static_cast<std::size_t>(grid.columns);
     // Under the physical rule a force of the step, a spring's as much as gravity's, moves a point by that share of dt².
     const Real dt = static_cast<Real>(model.dt), dt2 = model.force_share * dt * dt;
-    for (int row = 0; row < grid.rows; ++row) {
-        const std::size_t begin = static_cast<std::size_t>(row) * columns;
-        for (std::size_t s = 0; s < stencil_size; ++s) {
-            const SpringStencil& stencil = spring_stencil[s];
-            if (!model.pulls(s) || row + stencil.rows < 0)
-                continue;
-            Springs<Real> springs{0, 0, 0, model.spring_constant(s) * dt2, grid.rest[s].data(), lambda[s]};
-            const auto across = static_cast<std::size_t>(std::abs(stencil.columns));
-            if (columns <= across)
-                continue;
-            if (stencil.rows != 0) {
-                springs.a = begin + (stencil.columns < 0 ? across : 0);
-                springs.b =
-                    begin - static_cast<std::size_t>(-stencil.rows) * columns + (stencil.columns > 0 ? across : 0);
-                springs.count = columns - across;
-                solve<1, same_rest>(points, springs);
-                continue;
-            }
-            // Within the row: springs that begin 2 `across` apart have no points in common.
-            for (std::size_t first = 0; first < 2 * across && first + across < columns; ++first) {
-                springs.b = begin + first;
-                springs.a = springs.b + across;
-                springs.count = (columns - across - first + 2 * across - 1) / (2 * across);
-                if (across == 1)
-                    solve<2, same_rest>(points, springs);
-                else
-                    solve<4, same_rest>(points, springs);
-            }
-        }
-    }
+    for_each_spring_row(model, [&](SpringRow row, auto stride) {
+        solve<stride(), same_rest>(points, row, model.spring_constant(row.s) * dt2, model.grid->rest[row.s].data(),
+                                   lambda[row.s]);
+    });
 }
 
 } // namespace
