@@ -1,8 +1,10 @@
 // Methods and their limits in the window, chosen and read by the test engine.
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <catch2/catch_test_macros.hpp>
 #include <string>
+#include <string_view>
 
 #include "lab_driver.h"
 #include "scene/fields.h"
@@ -11,7 +13,7 @@
 namespace clothlab::test {
 namespace {
 
-sim::IntegratorId integrator(const char* name) {
+sim::IntegratorId integrator(std::string_view name) {
     for (const sim::IntegratorInfo& i : sim::integrators())
         if (i.name == name)
             return i.id;
@@ -19,10 +21,16 @@ sim::IntegratorId integrator(const char* name) {
     return {};
 }
 
-void choose_method(ImGuiTestContext* user, const char* name) {
-    user->ComboClick(("###Parameters/**/simulation.integrator/##value/" +
-                      std::string(sim::traits(integrator(name)).title))
-                         .c_str());
+/// Opens the list of a parameter and clicks an entry. ImGui does not tell the test engine the labels of lists, so the
+/// path has to be whole.
+void choose(ImGuiTestContext* user, std::string_view group, std::string_view key, std::string_view entry) {
+    user->ItemClick(("###Parameters/" + std::string(group) + "##fields/" + std::string(key) + "/##value").c_str());
+    const ImGuiWindow* list = user->GetWindowByRef("//$FOCUSED");
+    user->ItemClick(("//" + std::string(list->Name) + "/**/" + std::string(entry)).c_str());
+}
+
+void choose_method(ImGuiTestContext* user, std::string_view name) {
+    choose(user, "method", "simulation.integrator", sim::traits(integrator(name)).title);
 }
 
 bool shown(LabDriver& driver, const char* item) {
@@ -42,7 +50,7 @@ TEST_CASE("Every method can be chosen in the list while the cloth moves, and goe
     for (const sim::IntegratorInfo& i : sim::integrators()) {
         INFO(i.name);
         const std::uint64_t steps = driver.lab().snapshot->steps;
-        REQUIRE(driver.act([&](ImGuiTestContext* user) { choose_method(user, std::string(i.name).c_str()); }));
+        REQUIRE(driver.act([&](ImGuiTestContext* user) { choose_method(user, i.name); }));
         CHECK(driver.lab().scene.simulation.stepping.integrator == i.id);
         CHECK(driver.lab().snapshot->steps == steps);
         REQUIRE(driver.act([](ImGuiTestContext* user) { user->KeyPress(ImGuiMod_Shift | ImGuiKey_N); }));
@@ -54,15 +62,15 @@ TEST_CASE("Every method can be chosen in the list while the cloth moves, and goe
 
 TEST_CASE("A method shows the parameters that it has and no others") {
     LabDriver driver("two-pins");
-    const auto choose = [&](const char* name) {
+    const auto take = [&](const char* name) {
         REQUIRE(driver.act([&](ImGuiTestContext* user) { choose_method(user, name); }));
     };
     CHECK_FALSE(shown(driver, "simulation.iterations"));
-    choose("pbd");
+    take("pbd");
     CHECK(shown(driver, "simulation.iterations"));
     CHECK(shown(driver, "simulation.pbd_stiffness"));
     CHECK_FALSE(shown(driver, "simulation.tolerance"));
-    choose("backward-euler");
+    take("backward-euler");
     CHECK(shown(driver, "simulation.tolerance"));
     CHECK_FALSE(shown(driver, "simulation.iterations"));
 }
@@ -74,10 +82,8 @@ TEST_CASE("Every value of every rule can be chosen in its list, and is shown in 
         if (f.section() != "rules")
             continue;
         for (std::size_t i = f.choices.size(); i-- > 0;) {
-            const std::string item =
-                "###Parameters/**/" + std::string(f.key) + "/##value/" + std::string(f.choices[i]);
-            INFO(item);
-            REQUIRE(driver.act([&](ImGuiTestContext* user) { user->ComboClick(item.c_str()); }));
+            INFO(f.key << " = " << f.choices[i]);
+            REQUIRE(driver.act([&](ImGuiTestContext* user) { choose(user, "rules", f.key, f.choices[i]); }));
             CHECK(f.get(driver.lab().scene) == static_cast<double>(i));
         }
     }
