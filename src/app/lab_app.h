@@ -71,8 +71,8 @@ private:
     SimulationThread simulation_;
     ui::Lab lab_;
     History history_;
-    sim::Description passed_on_; ///< what the simulation thread has been told
-    std::string refusal_;        ///< the simulation's last error that has been shown
+    sim::Description passed_on_;         ///< what the simulation thread has been told
+    std::string refusal_;                ///< the simulation's last error that has been shown
     sim::Status told_ = sim::Status::ok; ///< what the user knows of the run's health
     bool watching_stability_ = false;
 

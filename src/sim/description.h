@@ -27,9 +27,9 @@ struct Cloth {
     int num_height_points = 50;
     double thickness = 0.0095; ///< m; self-collision keeps points twice this apart
     Orientation orientation = Orientation::horizontal;
-    double ks = 5000;     ///< N/m
-    double density = 150; ///< kg/m²; may be negative, not zero
-    double damping = 0.2; ///< percent of the motion lost in each substep, by the course's rule
+    double ks = 5000;          ///< N/m
+    double density = 150;      ///< kg/m²; may be negative, not zero
+    double damping = 0.2;      ///< percent of the motion lost in each substep, by the course's rule
     double damping_rate = 5.4; ///< 1/s, c of the physical rule: motion decays as exp(-c t)
     bool enable_structural = true;
     bool enable_shearing = true;

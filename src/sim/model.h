@@ -44,16 +44,16 @@ struct Model {
     Real spring_constant(std::size_t s) const { return k[static_cast<std::size_t>(spring_stencil[s].kind)]; }
     bool pulls(std::size_t s) const { return enabled[static_cast<std::size_t>(spring_stencil[s].kind)]; }
 
-    double density = 0;                      ///< kg/m²
-    Real mass = 0;                           ///< kg per point
-    Real gx = 0, gy = 0, gz = 0;             ///< m/s², gravity and all further accelerations
-    double dt = 0;                           ///< s
-    double damping_rate = 0;                 ///< 1/s, of the physical rule; 0 under the course's
+    double density = 0;          ///< kg/m²
+    Real mass = 0;               ///< kg per point
+    Real gx = 0, gy = 0, gz = 0; ///< m/s², gravity and all further accelerations
+    double dt = 0;               ///< s
+    double damping_rate = 0;     ///< 1/s, of the physical rule; 0 under the course's
     /// Damping, by what a method can make of it. Course: the share 1 - d of the motion survives each step, whatever its
     /// length. Physical: v' = a - c v, whose exact solution over a step with constant a is v exp(-c dt) + a dt share.
-    Real keep = 1;        ///< of the Verlet displacement: 1 - d, or exp(-c dt)
-    Real force_share = 1; ///< of dt² a: 1, or (1 - exp(-c dt)) / (c dt)
-    Real course_keep = 1; ///< 1 - d; 1 under the physical rule, where -c v is one of the forces
+    Real keep = 1;                           ///< of the Verlet displacement: 1 - d, or exp(-c dt)
+    Real force_share = 1;                    ///< of dt² a: 1, or (1 - exp(-c dt)) / (c dt)
+    Real course_keep = 1;                    ///< 1 - d; 1 under the physical rule, where -c v is one of the forces
     int substeps = 1;                        ///< per frame
     Real thickness = 0;                      ///< m
     Real cell_x = 0, cell_y = 0, cell_z = 0; ///< m, cells of the course's self-collision

@@ -19,14 +19,14 @@ struct Snapshot {
     std::vector<float> positions; ///< x, y, z per point, row-major, in m
     double time = 0;              ///< s
     std::uint64_t steps = 0;
-    std::uint64_t frame = 0; ///< whole frames since the start
-    int substep = 0;         ///< steps taken of the frame under way
-    int substeps = 1;        ///< per frame
-    double dt = 0;           ///< s
+    std::uint64_t frame = 0;                  ///< whole frames since the start
+    int substep = 0;                          ///< steps taken of the frame under way
+    int substeps = 1;                         ///< per frame
+    double dt = 0;                            ///< s
     Diagnostics diagnostics;                  ///< with the status and cause of `trouble`, if there is any
     std::optional<Trouble> trouble;           ///< the run's first, while it is watched
     std::optional<StabilityMargin> stability; ///< only where it was asked for
-    StepCounts counts; ///< of the last step
+    StepCounts counts;                        ///< of the last step
     InstructionSet instructions = InstructionSet::scalar;
     int threads = 1;                 ///< of the last step
     StageSeconds seconds_per_step{}; ///< mean wall time of each stage, lately

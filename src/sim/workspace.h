@@ -23,15 +23,15 @@ struct Workspace {
     std::unique_ptr<ThreadPool> pool;
     ThreadChoice choice;
 
-    Vec3Array<Real> force;                         ///< N; empty until something needs it
-    std::vector<Vec3Array<Real>> arrays;           ///< the method's, as many as it asks for
+    Vec3Array<Real> force;               ///< N; empty until something needs it
+    std::vector<Vec3Array<Real>> arrays; ///< the method's, as many as it asks for
     /// Step after which arrays[0] holds the accelerations of the state, so that the next step need not compute them;
     /// 0: it does not.
     std::uint64_t force_of_step = 0;
-    std::shared_ptr<void> solver;   ///< what a method builds in its first step for a model
-    std::size_t solver_bytes = 0;   ///< that it holds
-    Vec3Array<Real> before_stages;  ///< m; positions before contacts and limit, of methods with velocities
-    std::vector<AlignedVector<Real>> sweep;        ///< per thread
+    std::shared_ptr<void> solver;           ///< what a method builds in its first step for a model
+    std::size_t solver_bytes = 0;           ///< that it holds
+    Vec3Array<Real> before_stages;          ///< m; positions before contacts and limit, of methods with velocities
+    std::vector<AlignedVector<Real>> sweep; ///< per thread
     std::vector<std::array<Real, 3>> pin_previous; ///< m, of the pins, while the points are moved
     bool limit_was_idle = false;                   ///< the last sweep shortened nothing
     SelfCollisionWork<Real> self_collision;

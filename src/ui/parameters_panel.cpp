@@ -27,11 +27,11 @@ std::span<const ChoiceText> method_texts() {
     static const std::vector<ChoiceText> texts = [] {
         std::vector<ChoiceText> list;
         for (const sim::IntegratorInfo& i : sim::integrators())
-            list.push_back({std::string(i.title),
-                            std::string(i.help) + "\n\nOrder " + std::to_string(i.order) + ", " +
-                                std::string(sim::family_names[static_cast<std::size_t>(i.family)]) +
-                                ".\nLargest omega dt: " + std::string(i.limit_formula) + ".\nA step costs " +
-                                std::string(i.cost) + ".\n" + std::string(i.source) + "."});
+            list.push_back(
+                {std::string(i.title), std::string(i.help) + "\n\nOrder " + std::to_string(i.order) + ", " +
+                                           std::string(sim::family_names[static_cast<std::size_t>(i.family)]) +
+                                           ".\nLargest omega dt: " + std::string(i.limit_formula) + ".\nA step costs " +
+                                           std::string(i.cost) + ".\n" + std::string(i.source) + "."});
         return list;
     }();
     return texts;
@@ -129,7 +129,8 @@ void wind(Lab& lab) {
 
 void draw_parameters(Lab& lab) {
     const bool rate = lab.scene.simulation.rules.damping == sim::DampingRule::physical;
-    group(lab, "Cloth", {"cloth.ks", "cloth.density", rate ? "cloth.damping_rate" : "cloth.damping", "cloth.thickness"});
+    group(lab, "Cloth",
+          {"cloth.ks", "cloth.density", rate ? "cloth.damping_rate" : "cloth.damping", "cloth.thickness"});
     group(lab, "Springs", {"cloth.enable_structural", "cloth.enable_shearing", "cloth.enable_bending"});
     method(lab);
     rules(lab);

@@ -59,8 +59,9 @@ void bar(const sim::StabilityMargin& m) {
     ImGui::PushStyleColor(ImGuiCol_PlotHistogram, tint);
     ImGui::ProgressBar(static_cast<float>(std::clamp(share, 0.0, 1.0)), {-1, 0}, text);
     ImGui::PopStyleColor();
-    tooltip("omega is the fastest oscillation that the cloth's springs can make in its present pose, dt the length of a "
-            "step. Beyond the method's limit that oscillation grows in every step.");
+    tooltip(
+        "omega is the fastest oscillation that the cloth's springs can make in its present pose, dt the length of a "
+        "step. Beyond the method's limit that oscillation grows in every step.");
 }
 
 void margin(const Lab& lab, const sim::Snapshot& s, const sim::StabilityMargin& m) {
@@ -76,7 +77,8 @@ void margin(const Lab& lab, const sim::Snapshot& s, const sim::StabilityMargin& 
     row("Stiffness ks", number(d.cloth.ks, "N/m"), "up to", number(m.ks_max, "N/m"),
         "The stiffest springs that this step can carry.", good);
     row("Density", number(sim::grams_per_cm2(d.cloth.density), "g/cm²"), "from",
-        number(sim::grams_per_cm2(m.density_min), "g/cm²"), "The lightest cloth that this step can carry.", good);
+        m.density_min > 0 ? number(sim::grams_per_cm2(m.density_min), "g/cm²") : "any",
+        "The lightest cloth that this step can carry.", good);
     row("omega", number(m.omega, "1/s"), "below", number(m.omega_bound, "1/s"),
         "Angular frequency of the fastest mode: an estimate by Lanczos' method, and a bound that holds for certain.",
         true);

@@ -73,7 +73,7 @@ void cells(Lab& lab, const sim::Snapshot& s) {
     cell("step", microseconds(step), stage_table(s));
     for (std::size_t i = 0; i < sim::stage_names.size() && step > 0; ++i)
         if (s.seconds_per_step[i] > 0) {
-            static constexpr const char* short_names[] = {"forces", "Verlet", "self", "colliders", "limit"};
+            static constexpr const char* short_names[] = {"forces", "method", "self", "colliders", "limit"};
             cell(short_names[i], microseconds(s.seconds_per_step[i]), stage_table(s));
         }
     cell("energy", print("%.2f J", d.energy.total()),

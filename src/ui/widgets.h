@@ -19,8 +19,8 @@ struct ChoiceText {
 };
 
 /// A row that edits one parameter of lab.scene: slider, switch or list as its type asks for, with unit and tooltip, and
-/// a button that resets it to the loaded scene's value where it differs. A list shows `texts`, one for each value, where
-/// there are any, and otherwise the names that files use.
+/// a button that resets it to the loaded scene's value where it differs. A list shows `texts`, one for each value,
+/// where there are any, and otherwise the names that files use.
 void field_row(Lab& lab, std::string_view key, std::span<const ChoiceText> texts = {});
 
 /// A row for a number that is not in the table of fields (a collider's). True when it was changed.

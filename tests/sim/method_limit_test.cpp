@@ -96,9 +96,9 @@ TEST_CASE("Every explicit method that has a limit holds at 0.999 of it on a chai
 }
 
 TEST_CASE("The limits of the simplest methods hold with damping too, weak and strong") {
-    const auto id = GENERATE(sim::IntegratorId::course_verlet, sim::IntegratorId::velocity_verlet,
-                             sim::IntegratorId::symplectic_euler, sim::IntegratorId::explicit_euler,
-                             sim::IntegratorId::heun);
+    const auto id =
+        GENERATE(sim::IntegratorId::course_verlet, sim::IntegratorId::velocity_verlet,
+                 sim::IntegratorId::symplectic_euler, sim::IntegratorId::explicit_euler, sim::IntegratorId::heun);
     const double damping = GENERATE(0.2, 20.0);
     const sim::IntegratorInfo& method = sim::integrators()[static_cast<std::size_t>(id)];
     INFO(method.name << ", " << damping << " %");

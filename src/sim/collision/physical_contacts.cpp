@@ -1,7 +1,7 @@
-// Coulomb friction in positions: M. Macklin, M. Mueller, N. Chentanez, T.-Y. Kim, "Unified particle physics for real-time
-// applications", ACM Transactions on Graphics 33 (2014), section 6.1. The collider does not move and its mass is
-// infinite, so the whole correction is the point's; static and kinetic coefficient are the same. Friction is bounded by
-// the depth that the contact corrected in the step, which over the steps adds up to the normal impulse.
+// Coulomb friction in positions: M. Macklin, M. Mueller, N. Chentanez, T.-Y. Kim, "Unified particle physics for
+// real-time applications", ACM Transactions on Graphics 33 (2014), section 6.1. The collider does not move and its mass
+// is infinite, so the whole correction is the point's; static and kinetic coefficient are the same. Friction is bounded
+// by the depth that the contact corrected in the step, which over the steps adds up to the normal impulse.
 #include "sim/collision/physical_contacts.h"
 
 #include <cmath>

@@ -71,7 +71,8 @@ void undamped_accelerations(const Model<Real>& model, const Vec3Array<Real>& pos
 
 template <class Real>
 void accelerations(const Model<Real>& model, const Vec3Array<Real>& position,
-                   const std::type_identity_t<Vec3Array<Real>>* velocity, double time, Workspace<Real>& work, Vec3Array<Real>& out) {
+                   const std::type_identity_t<Vec3Array<Real>>* velocity, double time, Workspace<Real>& work,
+                   Vec3Array<Real>& out) {
     accelerate(model, position, velocity, time, model.damping_rate, work, out);
 }
 

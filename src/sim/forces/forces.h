@@ -33,7 +33,8 @@ void undamped_accelerations(const Model<Real>& model, const Vec3Array<Real>& pos
 /// velocities, the wind and the physical rule's damping -c v.
 template <class Real>
 void accelerations(const Model<Real>& model, const Vec3Array<Real>& position,
-                   const std::type_identity_t<Vec3Array<Real>>* velocity, double time, Workspace<Real>& work, Vec3Array<Real>& out);
+                   const std::type_identity_t<Vec3Array<Real>>* velocity, double time, Workspace<Real>& work,
+                   Vec3Array<Real>& out);
 
 #define CLOTHLAB_DECLARE(Real)                                                                                         \
     extern template void evaluate_forces<Real>(const Model<Real>&, const State<Real>&, Workspace<Real>&);              \

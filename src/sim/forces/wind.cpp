@@ -105,8 +105,8 @@ void add_course_wind_forces(const Model<Real>& model, const Vec3Array<Real>& x, 
     const Real t = static_cast<Real>(model.wind.clock == WindClock::time ? time : model.dt);
     for (std::size_t i = 0; i < x.size(); ++i) {
         const Triple<Real> w = course_wind<Real>({x.x[i], x.y[i], x.z[i]}, t);
-        const Triple<Real> r = course_air_resistance<Real>({force.x[i] / m, force.y[i] / m, force.z[i] / m},
-                                                           {v.x[i], v.y[i], v.z[i]});
+        const Triple<Real> r =
+            course_air_resistance<Real>({force.x[i] / m, force.y[i] / m, force.z[i] / m}, {v.x[i], v.y[i], v.z[i]});
         force.x[i] -= Real(0.7) * m * (w.x + r.x);
         force.y[i] -= Real(0.7) * m * (w.y + r.y);
         force.z[i] -= Real(0.7) * m * (w.z + r.z);

@@ -100,8 +100,7 @@ BackwardSolver<Real>& BackwardSolver<Real>::of(const Model<Real>& model, Workspa
     if (!work.solver) {
         work.solver = std::shared_ptr<BackwardSolver>(new BackwardSolver(model.grid->points()));
         const auto& solver = *static_cast<BackwardSolver*>(work.solver.get());
-        work.solver_bytes =
-            solver.hessian_.bytes() + 6 * solver.r_.bytes() + solver.sums_.capacity() * sizeof(double);
+        work.solver_bytes = solver.hessian_.bytes() + 6 * solver.r_.bytes() + solver.sums_.capacity() * sizeof(double);
     }
     return *static_cast<BackwardSolver*>(work.solver.get());
 }
@@ -157,7 +156,7 @@ double BackwardSolver<Real>::residual(const Model<Real>& model, const BackwardSt
 /// a/2 |x - x^|² - b (x - x^) + E(x), summed in double precision.
 template <class Real>
 auto BackwardSolver<Real>::energy(const Model<Real>& model, const BackwardStep<Real>& step,
-                                    const Vec3Array<Real>& x) const -> Energy {
+                                  const Vec3Array<Real>& x) const -> Energy {
     const double a = static_cast<double>(stiffness(model, step)), m = static_cast<double>(model.mass);
     const std::array<double, 3> gravity{m * static_cast<double>(model.gx), m * static_cast<double>(model.gy),
                                         m * static_cast<double>(model.gz)};
@@ -179,8 +178,8 @@ auto BackwardSolver<Real>::energy(const Model<Real>& model, const BackwardStep<R
     return total;
 }
 
-/// Solves (a I + Hessian) delta = r with block-diagonal preconditioning, until what is left of r is `relative` of it: Y.
-/// Saad, "Iterative Methods for Sparse Linear Systems", algorithm 9.1. Begins at delta, or at zero. r is used up.
+/// Solves (a I + Hessian) delta = r with block-diagonal preconditioning, until what is left of r is `relative` of it:
+/// Y. Saad, "Iterative Methods for Sparse Linear Systems", algorithm 9.1. Begins at delta, or at zero. r is used up.
 template <class Real>
 std::size_t BackwardSolver<Real>::conjugate_gradients(const Model<Real>& model, Real a, double relative, bool from_zero,
                                                       Workspace<Real>& work) {

@@ -25,7 +25,8 @@ void compute_blocks(const Model<Real>& model, const Vec3Array<Real>& x, std::siz
         const int step = spring_stencil[s].columns;
         const std::size_t back = distance(model, s);
         const Real k = model.spring_constant(s);
-        for (std::size_t i = std::max(begin, static_cast<std::size_t>(-spring_stencil[s].rows) * columns); i < end; ++i) {
+        for (std::size_t i = std::max(begin, static_cast<std::size_t>(-spring_stencil[s].rows) * columns); i < end;
+             ++i) {
             const int to_column = static_cast<int>(i % columns) + step;
             if (to_column < 0 || to_column >= grid.columns)
                 continue;
@@ -44,7 +45,8 @@ void compute_blocks(const Model<Real>& model, const Vec3Array<Real>& x, std::siz
 }
 
 template <class Real>
-void invert_diagonal(const Model<Real>& model, Real a, std::size_t begin, std::size_t end, SpringHessian<Real>& hessian) {
+void invert_diagonal(const Model<Real>& model, Real a, std::size_t begin, std::size_t end,
+                     SpringHessian<Real>& hessian) {
     const std::size_t points = model.grid->points();
     for (std::size_t i = begin; i < end; ++i) {
         Real xx = a, xy = 0, xz = 0, yy = a, yz = 0, zz = a;
@@ -92,9 +94,8 @@ std::size_t SpringHessian<Real>::bytes() const {
 template <class Real>
 void linearise(const Model<Real>& model, const Vec3Array<Real>& position, Real a, Workspace<Real>& work,
                SpringHessian<Real>& hessian) {
-    for_ranges(model, work, [&](int, std::size_t begin, std::size_t end) {
-        compute_blocks(model, position, begin, end, hessian);
-    });
+    for_ranges(model, work,
+               [&](int, std::size_t begin, std::size_t end) { compute_blocks(model, position, begin, end, hessian); });
     for_ranges(model, work,
                [&](int, std::size_t begin, std::size_t end) { invert_diagonal(model, a, begin, end, hessian); });
 }
@@ -102,8 +103,8 @@ void linearise(const Model<Real>& model, const Vec3Array<Real>& position, Real a
 template <class Real>
 void multiply(const Model<Real>& model, const SpringHessian<Real>& hessian, Real a, const Vec3Array<Real>& p,
               std::size_t begin, std::size_t end, Vec3Array<Real>& out) {
-    const Real *__restrict px = p.x.data(), *__restrict py = p.y.data(), *__restrict pz = p.z.data();
-    Real *__restrict ox = out.x.data(), *__restrict oy = out.y.data(), *__restrict oz = out.z.data();
+    const Real* __restrict px = p.x.data(), * __restrict py = p.y.data(), * __restrict pz = p.z.data();
+    Real* __restrict ox = out.x.data(), * __restrict oy = out.y.data(), * __restrict oz = out.z.data();
     for (std::size_t i = begin; i < end; ++i) {
         ox[i] = a * px[i];
         oy[i] = a * py[i];

@@ -3,11 +3,11 @@
 //
 // Of a spring with rest length L0, of length L along the unit vector n, the block is
 //     k ( n nT + (1 - L0 / L) (I - n nT) )
-// (D. Baraff, A. Witkin, "Large steps in cloth simulation", SIGGRAPH 1998, section 4; here for linear springs). Where the
-// spring is compressed its second part is negative, and the matrix of the system could be indefinite. That part is left
-// out there (K.-J. Choi, H.-S. Ko, "Stable but responsive cloth", SIGGRAPH 2002, section 3.1): conjugate gradients then
-// always find a direction in which the energy falls, and Newton's method, which stops only where the exact forces are
-// in balance, is slower under compression but no less accurate.
+// (D. Baraff, A. Witkin, "Large steps in cloth simulation", SIGGRAPH 1998, section 4; here for linear springs). Where
+// the spring is compressed its second part is negative, and the matrix of the system could be indefinite. That part is
+// left out there (K.-J. Choi, H.-S. Ko, "Stable but responsive cloth", SIGGRAPH 2002, section 3.1): conjugate gradients
+// then always find a direction in which the energy falls, and Newton's method, which stops only where the exact forces
+// are in balance, is slower under compression but no less accurate.
 #pragma once
 
 #include <array>

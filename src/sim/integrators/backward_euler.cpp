@@ -26,8 +26,9 @@ void backward_euler(const Model<Real>& model, State<Real>& state, Workspace<Real
 
 const IntegratorTraits backward_euler_traits{
     .title = "Backward Euler",
-    .help = "Stable at any step, and as damped as it is stable: fine motion dies out within a few large steps. Solved to "
-            "the tolerance by Newton's method.",
+    .help =
+        "Stable at any step, and as damped as it is stable: fine motion dies out within a few large steps. Solved to "
+        "the tolerance by Newton's method.",
     .family = Family::implicit_method,
     .order = 1,
     .limit_formula = "none",

@@ -1,8 +1,8 @@
 // BDF2, the backward differentiation formula of second order: E. Hairer, G. Wanner, "Solving Ordinary Differential
 // Equations II", section V.1; for cloth, K.-J. Choi, H.-S. Ko, "Stable but responsive cloth", SIGGRAPH 2002, section 4:
 //     x' = (4 x - x_before)/3 + 2/3 dt v',   v' = (4 v - v_before)/3 + 2/3 dt a(x', v')
-// which is backward Euler from other places with another step. The first step, and the one after a change of dt or of the
-// method, is backward Euler's own.
+// which is backward Euler from other places with another step. The first step, and the one after a change of dt or of
+// the method, is backward Euler's own.
 #include "sim/implicit/backward_step.h"
 #include "sim/integrators/combine.h"
 #include "sim/integrators/implicit.h"
@@ -39,7 +39,8 @@ void bdf2(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, S
 
 const IntegratorTraits bdf2_traits{
     .title = "BDF2",
-    .help = "Second order and stable at any step; damps what is too fine for the step, and far less of the rest than backward "
+    .help = "Second order and stable at any step; damps what is too fine for the step, and far less of the rest than "
+            "backward "
             "Euler. Looks one step back, which a contact makes a little wrong.",
     .family = Family::implicit_method,
     .order = 2,

@@ -18,7 +18,8 @@ namespace {
 /// Moves every free mass; with_wind is a compile-time switch so that still air costs nothing.
 template <class Real, class WithWind>
 void move(const Model<Real>& model, State<Real>& state, const Vec3Array<Real>& force, WithWind with_wind) {
-    const Real dt = static_cast<Real>(model.dt), dt2 = dt * dt, c = model.force_share * dt2 / model.mass, keep = model.keep;
+    const Real dt = static_cast<Real>(model.dt), dt2 = dt * dt, c = model.force_share * dt2 / model.mass,
+               keep = model.keep;
     const Real wind_factor = Real(0.7) * dt2;
     const Real t = model.wind.clock == WindClock::time ? static_cast<Real>(state.time) : dt;
     Vec3Array<Real>&x = state.position, &p = state.previous;

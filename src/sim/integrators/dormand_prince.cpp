@@ -1,8 +1,9 @@
-// Dormand-Prince 5(4) with step control: J. R. Dormand, P. J. Prince, "A family of embedded Runge-Kutta formulae", Journal
-// of Computational and Applied Mathematics 6 (1980), table 2; the control is that of E. Hairer, S. P. Norsett, G. Wanner,
-// "Solving Ordinary Differential Equations I", section II.4. A step of the simulation is divided into as many of its own
-// as the tolerance asks for. A deviation: the error is the largest of any coordinate, not a mean, so that one point in
-// trouble counts; and a step of a millionth of dt is taken whatever its error, so that a run that blows up goes on.
+// Dormand-Prince 5(4) with step control: J. R. Dormand, P. J. Prince, "A family of embedded Runge-Kutta formulae",
+// Journal of Computational and Applied Mathematics 6 (1980), table 2; the control is that of E. Hairer, S. P. Norsett,
+// G. Wanner, "Solving Ordinary Differential Equations I", section II.4. A step of the simulation is divided into as
+// many of its own as the tolerance asks for. A deviation: the error is the largest of any coordinate, not a mean, so
+// that one point in trouble counts; and a step of a millionth of dt is taken whatever its error, so that a run that
+// blows up goes on.
 #include <algorithm>
 #include <cmath>
 
@@ -16,14 +17,13 @@ namespace {
 
 constexpr int stages = 7;
 constexpr double c[stages] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
-constexpr double a[stages][stages - 1] = {
-    {},
-    {1.0 / 5},
-    {3.0 / 40, 9.0 / 40},
-    {44.0 / 45, -56.0 / 15, 32.0 / 9},
-    {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-    {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-    {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
+constexpr double a[stages][stages - 1] = {{},
+                                          {1.0 / 5},
+                                          {3.0 / 40, 9.0 / 40},
+                                          {44.0 / 45, -56.0 / 15, 32.0 / 9},
+                                          {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+                                          {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+                                          {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
 /// Weights of the fifth less those of the fourth order solution.
 constexpr double e[stages] = {71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 
@@ -67,7 +67,7 @@ double error(double h, const Vec3Array<Real>* stage) {
 template <class Real>
 void dormand_prince(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, StepCounts& counts) {
     Vec3Array<Real>*slope_v = work.arrays.data(), *slope_x = slope_v + stages, &x_next = slope_x[stages],
-                   &v_next = slope_x[stages + 1];
+    &v_next = slope_x[stages + 1];
     // In m, and for velocities in m per step.
     const double allowed = model.tolerance * static_cast<double>(model.grid->shortest);
     const double dt = model.dt, least = 1e-6 * dt;

@@ -1,7 +1,7 @@
-// An implicit-explicit Runge-Kutta method: springs implicit, gravity, wind and damping explicit. ARS(2,2,2) of U. M. Ascher,
-// S. J. Ruuth, R. J. Spiteri, "Implicit-explicit Runge-Kutta methods for time-dependent partial differential equations",
-// Applied Numerical Mathematics 25 (1997), section 2.6: second order, its implicit part L-stable. With
-// g = 1 - 1/sqrt(2) and d = 1 - 1/(2 g), y = (x, v), S the springs' part of y' and E the rest:
+// An implicit-explicit Runge-Kutta method: springs implicit, gravity, wind and damping explicit. ARS(2,2,2) of U. M.
+// Ascher, S. J. Ruuth, R. J. Spiteri, "Implicit-explicit Runge-Kutta methods for time-dependent partial differential
+// equations", Applied Numerical Mathematics 25 (1997), section 2.6: second order, its implicit part L-stable. With g =
+// 1 - 1/sqrt(2) and d = 1 - 1/(2 g), y = (x, v), S the springs' part of y' and E the rest:
 //     y1 = y + dt g S(y1) + dt g E(y)
 //     y' = y + dt ((1 - g) S(y1) + g S(y')) + dt (d E(y) + (1 - d) E(y1))
 // Both stages are steps of backward Euler of length g dt from other places (sim/implicit/backward_step.h).
@@ -45,7 +45,8 @@ void imex(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, S
     const double dt = model.dt, g = 1 - 1 / std::sqrt(2.0), d = 1 - 1 / (2 * g);
     const auto times_dt = [&](double share) { return static_cast<Real>(share * dt); };
     auto& w = work.arrays;
-    Vec3Array<Real>&e0 = w[0], &e1 = w[1], &s1 = w[2], &x1 = w[3], &v1 = w[4], &from_x = w[5], &from_v = w[6], &x2 = w[7];
+    Vec3Array<Real>&e0 = w[0], &e1 = w[1], &s1 = w[2], &x1 = w[3], &v1 = w[4], &from_x = w[5], &from_v = w[6],
+    &x2 = w[7];
     auto& solver = BackwardSolver<Real>::of(model, work);
     const BackwardStep<Real> stage{.gamma = g * dt,
                                    .position = &from_x,
@@ -78,7 +79,8 @@ void imex(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, S
 
 const IntegratorTraits imex_traits{
     .title = "IMEX Runge-Kutta",
-    .help = "Second order: springs implicit, gravity, wind and damping explicit, so that what is not stiff is not damped. No "
+    .help = "Second order: springs implicit, gravity, wind and damping explicit, so that what is not stiff is not "
+            "damped. No "
             "limit from the springs; strong wind has one.",
     .family = Family::implicit_method,
     .order = 2,

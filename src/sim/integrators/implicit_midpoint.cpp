@@ -1,6 +1,7 @@
 // The implicit midpoint rule: x' = x + dt (v + v')/2, v' = v + dt a((x + x')/2, (v + v')/2). E. Hairer, C. Lubich, G.
-// Wanner, "Geometric Numerical Integration", section II.1.1. The midpoint is where backward Euler gets in half a step, and
-// the step goes as far again: it neither damps nor excites a linear oscillation. Wind is that of the step's beginning.
+// Wanner, "Geometric Numerical Integration", section II.1.1. The midpoint is where backward Euler gets in half a step,
+// and the step goes as far again: it neither damps nor excites a linear oscillation. Wind is that of the step's
+// beginning.
 #include "sim/implicit/backward_step.h"
 #include "sim/integrators/combine.h"
 #include "sim/integrators/implicit.h"
@@ -29,7 +30,8 @@ void implicit_midpoint(const Model<Real>& model, State<Real>& state, Workspace<R
 
 const IntegratorTraits implicit_midpoint_traits{
     .title = "Implicit midpoint",
-    .help = "Second order, stable at any step, and no damping of its own: a quadratic energy is conserved exactly, so what is "
+    .help = "Second order, stable at any step, and no damping of its own: a quadratic energy is conserved exactly, so "
+            "what is "
             "too fine for the step goes on ringing.",
     .family = Family::implicit_method,
     .order = 2,

@@ -31,13 +31,12 @@ void adopt(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, 
             v.resize(points);
             for (std::size_t axis = 0; axis < 3; ++axis)
                 for (std::size_t i = 0; i < points; ++i)
-                    v.axes()[axis][i] =
-                        (x.axes()[axis][i] - p.axes()[axis][i]) / h + Real(0.5) * h * a.axes()[axis][i];
+                    v.axes()[axis][i] = (x.axes()[axis][i] - p.axes()[axis][i]) / h + Real(0.5) * h * a.axes()[axis][i];
         } else {
             for (std::size_t axis = 0; axis < 3; ++axis)
                 for (std::size_t i = 0; i < points; ++i)
-                    p.axes()[axis][i] = x.axes()[axis][i] - h * state.velocity.axes()[axis][i] +
-                                        Real(0.5) * h * h * a.axes()[axis][i];
+                    p.axes()[axis][i] =
+                        x.axes()[axis][i] - h * state.velocity.axes()[axis][i] + Real(0.5) * h * h * a.axes()[axis][i];
         }
         state.velocity = std::move(v);
         state.history = 0;

@@ -28,7 +28,8 @@ struct IntegratorTraits {
     std::string_view title; ///< as people read it
     std::string_view help;  ///< a sentence or two: what it is good for, and what not
     Family family;
-    int order; ///< of the error of positions at a fixed time, as a power of dt; 0: it does not converge to the springs' motion
+    int order; ///< of the error of positions at a fixed time, as a power of dt; 0: it does not converge to the springs'
+               ///< motion
     /// The largest y = omega dt at which an oscillator does not grow that loses the share d of its motion in each step,
     /// and is not damped otherwise: as a formula and as a number. Without damping it is 0 for methods that always grow;
     /// it is no_limit for those that never do.
@@ -37,9 +38,9 @@ struct IntegratorTraits {
     std::string_view cost;   ///< of a step
     std::string_view source; ///< the paper, and where in it
     // What its states hold and its steps need.
-    bool velocity;           ///< State::velocity; false: velocities are position - previous
-    bool history = false;    ///< State::previous_velocity
-    int arrays = 0;          ///< Workspace::arrays
+    bool velocity;        ///< State::velocity; false: velocities are position - previous
+    bool history = false; ///< State::previous_velocity
+    int arrays = 0;       ///< Workspace::arrays
     unsigned options = no_options;
     /// The physical rule's damping is Model::keep and force_share, not a force: limit is given its share.
     bool exact_damping = false;

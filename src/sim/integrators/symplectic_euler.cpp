@@ -26,8 +26,9 @@ void symplectic_euler(const Model<Real>& model, State<Real>& state, Workspace<Re
 
 const IntegratorTraits symplectic_euler_traits{
     .title = "Symplectic Euler",
-    .help = "Explicit Euler with the new velocity in the position's update: as cheap, and stable where Verlet is. Energy "
-            "swings but does not drift.",
+    .help =
+        "Explicit Euler with the new velocity in the position's update: as cheap, and stable where Verlet is. Energy "
+        "swings but does not drift.",
     .family = Family::explicit_method,
     .order = 1,
     .limit_formula = "2 sqrt(1 - d/2)",

@@ -19,8 +19,8 @@ sim::IntegratorInfo any_method() {
     return GENERATE(from_range(sim::integrators().begin(), sim::integrators().end()));
 }
 
-/// Of several vectors in width and, by its number of rows, several threads' work; falls onto a sphere, in double precision
-/// in wind.
+/// Of several vectors in width and, by its number of rows, several threads' work; falls onto a sphere, in double
+/// precision in wind.
 sim::Description busy_cloth(const sim::IntegratorInfo& method, sim::Precision precision) {
     sim::Description description;
     description.cloth.num_width_points = 22;
