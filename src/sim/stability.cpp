@@ -107,6 +107,8 @@ struct StepOf {
 template <class Real>
 StepOf step_of(const Model<Real>& model, double dt) {
     const IntegratorTraits& method = traits(model.integrator);
+    if (method.divides_steps && model.tolerance > 0)
+        return {1, no_limit};
     if (model.rules.damping == DampingRule::cs184)
         return {1, method.limit(1 - static_cast<double>(model.course_keep))};
     // -c v is a force like others, which damps and so widens the limit: it counts as none here.

@@ -156,6 +156,10 @@ TEST_CASE("Methods without a limit have no longest step, and those that always g
     for (const sim::IntegratorInfo& method : sim::integrators()) {
         INFO(method.name);
         description.stepping.integrator = method.id;
+        description.stepping.tolerance = 1e-6;
+        if (method.divides_steps)
+            REQUIRE(margin_of(description).limit == infinity);
+        description.stepping.tolerance = 0; // every step is taken as it is
         const sim::StabilityMargin margin = margin_of(description);
         REQUIRE(margin.limit == method.limit(0));
         if (margin.limit == infinity) {

@@ -2,7 +2,7 @@
 // Journal of Computational and Applied Mathematics 6 (1980), table 2; the control is that of E. Hairer, S. P. Norsett,
 // G. Wanner, "Solving Ordinary Differential Equations I", section II.4. A step of the simulation is divided into as
 // many of its own as the tolerance asks for. A deviation: the error is the largest of any coordinate, not a mean, so
-// that one point in trouble counts; and a step of a millionth of dt is taken whatever its error, so that a run that
+// that one point in trouble counts; and a step of a thousandth of dt is taken whatever its error, so that a run that
 // blows up goes on.
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ void dormand_prince(const Model<Real>& model, State<Real>& state, Workspace<Real
     &v_next = slope_x[stages + 1];
     // In m, and for velocities in m per step.
     const double allowed = model.tolerance * static_cast<double>(model.grid->shortest);
-    const double dt = model.dt, least = 1e-6 * dt;
+    const double dt = model.dt, least = 1e-3 * dt;
     state.previous = state.position;
     Vec3Array<Real>&x = state.position, &v = state.velocity;
     double done = 0, h = state.solver_step > 0 && model.tolerance > 0 ? state.solver_step : dt;
@@ -119,7 +119,8 @@ const IntegratorTraits dormand_prince_traits{
     .source = "J. R. Dormand, P. J. Prince, Journal of Computational and Applied Mathematics 6 (1980), table 2",
     .velocity = true,
     .arrays = 2 * stages + 2,
-    .options = uses_tolerance};
+    .options = uses_tolerance,
+    .divides_steps = true};
 
 CLOTHLAB_DEFINE_INTEGRATOR(dormand_prince)
 

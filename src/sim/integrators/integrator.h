@@ -44,6 +44,8 @@ struct IntegratorTraits {
     unsigned options = no_options;
     /// The physical rule's damping is Model::keep and force_share, not a force: limit is given its share.
     bool exact_damping = false;
+    /// With a tolerance above 0 it divides a step where it must: its limit is then that of its own steps, not of dt.
+    bool divides_steps = false;
 };
 
 struct IntegratorInfo : IntegratorTraits {
