@@ -105,6 +105,8 @@ struct Stepping {
     int iterations = 10;             ///< of methods that sweep over springs or points, per step
     double tolerance = 1e-6;         ///< of methods that iterate or choose their step until they are accurate enough
     double pbd_stiffness = 1;        ///< k of position based dynamics, 0 to 1
+    double spring_damping = 0;       ///< N s/m, of XPBD: against the change of a spring's length
+    double acceleration = 0;         ///< rho of vertex block descent's Chebyshev acceleration, 0 (none) to below 1
     double seed = 0;                 ///< of the vertical cloth's random offsets; a whole number below 2^53
     Vec3 gravity{0, -9.8, 0};        ///< m/s²
     std::vector<Vec3> accelerations; ///< m/s², further ones

@@ -90,6 +90,8 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
     model.iterations = stepping.iterations;
     model.tolerance = stepping.tolerance;
     model.pbd_stiffness = real(stepping.pbd_stiffness);
+    model.spring_damping = real(stepping.spring_damping);
+    model.acceleration = stepping.acceleration;
     return model;
 }
 

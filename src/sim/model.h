@@ -65,6 +65,8 @@ struct Model {
     int iterations = 10;
     double tolerance = 1e-6;
     Real pbd_stiffness = 1;
+    Real spring_damping = 0; ///< N s/m
+    double acceleration = 0;
 };
 
 /// Builds the model of a description on a grid that was made for it. Throws std::invalid_argument for what has no

@@ -49,6 +49,10 @@ void method(Lab& lab) {
         field_row(lab, "simulation.tolerance");
     if (traits.options & sim::uses_pbd_stiffness)
         field_row(lab, "simulation.pbd_stiffness");
+    if (traits.options & sim::uses_spring_damping)
+        field_row(lab, "simulation.spring_damping");
+    if (traits.options & sim::uses_acceleration)
+        field_row(lab, "simulation.acceleration");
     field_row(lab, "simulation.substeps");
     field_row(lab, "simulation.frames_per_second");
     end_fields();

@@ -19,7 +19,14 @@ enum class Family : std::uint8_t { explicit_method, implicit_method, position_ba
 inline constexpr std::array<std::string_view, 3> family_names{"explicit", "implicit", "position-based"};
 
 /// Parameters of a method besides the step, as bits.
-enum MethodOption : unsigned { no_options = 0, uses_iterations = 1, uses_tolerance = 2, uses_pbd_stiffness = 4 };
+enum MethodOption : unsigned {
+    no_options = 0,
+    uses_iterations = 1,
+    uses_tolerance = 2,
+    uses_pbd_stiffness = 4,
+    uses_spring_damping = 8,
+    uses_acceleration = 16
+};
 
 inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 

@@ -119,6 +119,36 @@ Triple<Real> solve(const PointBlock<Real>& b) {
     return {b.force.x / b.xx - l21 * y - l31 * z, y, z};
 }
 
+/// The paper's section 3.8: with w_1 = 1, w_2 = 2 / (2 - rho²), w_n = 4 / (4 - rho² w_{n-1}), what an iteration made of
+/// the positions becomes x = w (x - x_{n-2}) + x_{n-2}. It moves nothing from where the descent has ended.
+template <class Real>
+struct Accelerator {
+    const double rho;
+    Vec3Array<Real>&before, &two_before;
+    double w = 1;
+    int iteration = 0;
+
+    void begin(const Vec3Array<Real>& x) {
+        if (rho == 0)
+            return;
+        std::swap(before, two_before);
+        before = x;
+        ++iteration;
+        w = iteration == 1 ? 1 : iteration == 2 ? 2 / (2 - rho * rho) : 4 / (4 - rho * rho * w);
+    }
+    void end(Vec3Array<Real>& x) const {
+        if (rho == 0 || iteration == 1)
+            return;
+        const Real factor = static_cast<Real>(w);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            Real* now = x.axes()[axis];
+            const Real* from = two_before.axes()[axis];
+            for (std::size_t i = 0; i < x.size(); ++i)
+                now[i] = factor * (now[i] - from[i]) + from[i];
+        }
+    }
+};
+
 } // namespace
 
 template <class Real>
@@ -178,9 +208,13 @@ void vertex_block_descent(const Model<Real>& model, State<Real>& state, Workspac
                 move(column, static_cast<int>(row));
         }
     };
-    for (int iteration = 0; iteration < model.iterations; ++iteration)
+    Accelerator<Real> accelerator{model.acceleration, work.arrays[1], work.arrays[2]};
+    for (int iteration = 0; iteration < model.iterations; ++iteration) {
+        accelerator.begin(state.position);
         for (int colour = 0; colour < colours; ++colour)
             for_ranges(model, work, [&](int, std::size_t begin, std::size_t end) { move_colour(colour, begin, end); });
+        accelerator.end(state.position);
+    }
     velocities_from_displacements(model, state);
     counts.solver_iterations = static_cast<std::size_t>(model.iterations);
 }
@@ -195,10 +229,11 @@ const IntegratorTraits vertex_block_descent_traits{
     .limit_formula = "none",
     .limit = [](double) { return no_limit; },
     .cost = "iterations sweeps over the points, 12 springs each",
-    .source = "A. H. Chen, Z. Liu, Y. Yang, C. Yuksel, \"Vertex block descent\", SIGGRAPH 2024, section 3",
+    .source = "A. H. Chen, Z. Liu, Y. Yang, C. Yuksel, \"Vertex block descent\", SIGGRAPH 2024, section 3, with "
+              "inertia as the first guess",
     .velocity = true,
-    .arrays = 1,
-    .options = uses_iterations};
+    .arrays = 3,
+    .options = uses_iterations | uses_acceleration};
 
 CLOTHLAB_DEFINE_INTEGRATOR(vertex_block_descent)
 

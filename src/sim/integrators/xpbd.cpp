@@ -8,9 +8,13 @@
 // turn, the sum is backward Euler's only up to a share that falls with dt². (It is the residual g of the paper's
 // equation 8, which is taken to be zero.) With one iteration and more substeps it is the method of M. Macklin et al.,
 // "Small steps in physics simulation", Symposium on Computer Animation 2019.
+// With a damping beta in N s/m of the springs' lengths it is (equation 26)
+//     dlambda = -(C + alpha lambda + g grad C (x - x_n)) / ((1 + g) (w_a + w_b) + alpha),   g = beta / (k dt)
 //
 // Everything is multiplied by k dt², so that k = 0 divides by nothing.
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "sim/integrators/displacement.h"
 #include "sim/integrators/integrator.h"
@@ -23,17 +27,28 @@ namespace {
 template <class Real>
 struct Points {
     Real *x, *y, *z;
-    const Real* w; ///< inverse masses, 1/kg
+    const Real* w;                     ///< inverse masses, 1/kg
+    std::array<const Real*, 3> before; ///< a step earlier
 };
 
-/// One spring after the other; rest lengths and multipliers are those of the springs' stencil entry, by owner.
-template <std::size_t stride, bool same_rest, class Real>
-void solve(Points<Real> points, SpringRow s, Real stiffness /* k dt², kg */, const Real* rest_lengths,
-           Real* multipliers) {
+/// A kind of springs.
+template <class Real>
+struct Kind {
+    Real stiffness;           ///< k dt², kg
+    Real damping;             ///< beta dt, kg
+    const Real* rest_lengths; ///< m, by the owner of the spring, or one for all
+    Real* multipliers;        ///< by owner
+};
+
+/// One spring after the other.
+template <std::size_t stride, bool same_rest, bool damped, class Real>
+void solve(Points<Real> points, SpringRow s, Kind<Real> kind) {
+    const Real stiffness = kind.stiffness, damping = damped ? kind.damping : Real(0);
     Real *ax = points.x + s.a, *ay = points.y + s.a, *az = points.z + s.a;
     Real *bx = points.x + s.b, *by = points.y + s.b, *bz = points.z + s.b;
-    const Real *wa = points.w + s.a, *wb = points.w + s.b, *rest = same_rest ? rest_lengths : rest_lengths + s.a;
-    Real* lambda = multipliers + s.a;
+    const Real *wa = points.w + s.a, *wb = points.w + s.b,
+               *rest = same_rest ? kind.rest_lengths : kind.rest_lengths + s.a;
+    Real* lambda = kind.multipliers + s.a;
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC ivdep
 #endif
@@ -41,11 +56,17 @@ void solve(Points<Real> points, SpringRow s, Real stiffness /* k dt², kg */, co
         const std::size_t i = n * stride;
         const Real dx = bx[i] - ax[i], dy = by[i] - ay[i], dz = bz[i] - az[i];
         const Real length = std::sqrt(dx * dx + dy * dy + dz * dz);
-        const Real error = stiffness * (length - rest[same_rest ? 0 : i]) + lambda[i];
+        Real error = stiffness * (length - rest[same_rest ? 0 : i]) + lambda[i];
         // Without a length there is no direction, and no force. (Numbers, since compilers make branches of other
         // choices.)
         const Real has_length = length > 0 ? Real(1) : Real(0);
-        const Real dlambda = has_length * -error / (Real(1) + stiffness * (wa[i] + wb[i]));
+        if constexpr (damped) {
+            const auto& [x, y, z] = points.before;
+            const std::size_t a = s.a + i, b = s.b + i;
+            const Real along = dx * (dx - (x[b] - x[a])) + dy * (dy - (y[b] - y[a])) + dz * (dz - (z[b] - z[a]));
+            error += damping * along / (length + (Real(1) - has_length));
+        }
+        const Real dlambda = has_length * -error / (Real(1) + (stiffness + damping) * (wa[i] + wb[i]));
         const Real move = dlambda / (length + (Real(1) - has_length));
         lambda[i] += dlambda;
         const Real move_a = wa[i] * move, move_b = wb[i] * move;
@@ -58,13 +79,16 @@ void solve(Points<Real> points, SpringRow s, Real stiffness /* k dt², kg */, co
     }
 }
 
-template <bool same_rest, class Real>
+template <bool same_rest, bool damped, class Real>
 void sweep(const Model<Real>& model, Points<Real> points, const std::array<Real*, stencil_size>& lambda) {
     // Under the physical rule a force of the step, a spring's as much as gravity's, moves a point by that share of dt².
-    const Real dt = static_cast<Real>(model.dt), dt2 = model.force_share * dt * dt;
+    const Real dt = static_cast<Real>(model.dt), damping_dt = model.force_share * dt, dt2 = model.force_share * dt * dt;
     for_each_spring_row(model, [&](SpringRow row, auto stride) {
-        solve<stride(), same_rest>(points, row, model.spring_constant(row.s) * dt2, model.grid->rest[row.s].data(),
-                                   lambda[row.s]);
+        const bool bending = spring_stencil[row.s].kind == SpringKind::bending;
+        const Real share = bending ? static_cast<Real>(bending_share) : Real(1);
+        const Kind<Real> kind{model.spring_constant(row.s) * dt2, share * model.spring_damping * damping_dt,
+                              model.grid->rest[row.s].data(), lambda[row.s]};
+        solve<stride(), same_rest, damped>(points, row, kind);
     });
 }
 
@@ -90,13 +114,12 @@ void xpbd(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, S
         inverse_mass[pin] = 0;
 
     const Points<Real> points{state.position.x.data(), state.position.y.data(), state.position.z.data(),
-                              inverse_mass.data()};
-    for (int iteration = 0; iteration < model.iterations; ++iteration) {
-        if (model.grid->rest_mask == 0)
-            sweep<true>(model, points, lambda);
-        else
-            sweep<false>(model, points, lambda);
-    }
+                              inverse_mass.data(), std::as_const(state.previous).axes()};
+    const bool same_rest = model.grid->rest_mask == 0, damped = model.spring_damping > 0;
+    const auto sweep_all = same_rest ? (damped ? sweep<true, true, Real> : sweep<true, false, Real>)
+                                     : (damped ? sweep<false, true, Real> : sweep<false, false, Real>);
+    for (int iteration = 0; iteration < model.iterations; ++iteration)
+        sweep_all(model, points, lambda);
     velocities_from_displacements(model, state);
     counts.solver_iterations = static_cast<std::size_t>(model.iterations);
 }
@@ -111,12 +134,12 @@ const IntegratorTraits xpbd_traits{
     .limit_formula = "none",
     .limit = [](double) { return no_limit; },
     .cost = "iterations sweeps over the springs",
-    .source =
-        "M. Macklin, M. Mueller, N. Chentanez, \"XPBD\", Motion in Games 2016, equations 17 and 18; small steps: M. "
-        "Macklin et al., Symposium on Computer Animation 2019",
+    .source = "M. Macklin, M. Mueller, N. Chentanez, \"XPBD\", Motion in Games 2016, equations 17, 18 and 26; small "
+              "steps: M. "
+              "Macklin et al., Symposium on Computer Animation 2019",
     .velocity = true,
     .arrays = 3,
-    .options = uses_iterations};
+    .options = uses_iterations | uses_spring_damping};
 
 CLOTHLAB_DEFINE_INTEGRATOR(xpbd)
 

@@ -64,6 +64,30 @@ TEST_CASE("One spring under XPBD, with one iteration, is backward Euler") {
     }
 }
 
+TEST_CASE("One damped spring under XPBD is backward Euler with a damper, and one that only turns is not damped") {
+    sim::Description description = two_diagonals(sim::IntegratorId::xpbd);
+    const double beta = GENERATE(0.5, 20.0, 1e6), k = GENERATE(0.0, 5000.0);
+    description.cloth.ks = k;
+    description.stepping.spring_damping = beta;
+    Sheet<double> sheet(description);
+    stretch_diagonals(sheet, 1.1);
+    const double dt = sheet.model.dt, rest = std::sqrt(2.0);
+    Sheet<double>::put(sheet.state.velocity, sheet.at(1, 1), {0.3, 0, 0.3});
+    double u = 0.1 * rest, v = 0.3 * rest;
+    for (int i = 0; i < 200; ++i) {
+        sheet.step();
+        v = (v - dt * k / sheet.model.mass * u) / (1 + (k * dt * dt + beta * dt) / sheet.model.mass);
+        u += dt * v;
+        REQUIRE_THAT(distance(sheet, sheet.at(0, 0), sheet.at(1, 1)) - rest, WithinAbs(u, 1e-12));
+    }
+
+    Sheet<double> falling(description);
+    for (const auto& [column, row] : {sim::GridPoint{1, 0}, sim::GridPoint{0, 1}}) // the free diagonal, as one
+        Sheet<double>::put(falling.state.velocity, falling.at(column, row), {0.1, -2, 0.3});
+    falling.step();
+    REQUIRE_THAT(falling.state.velocity.y[falling.at(1, 0)], WithinAbs(-2, 1e-12));
+}
+
 TEST_CASE("Position based dynamics with k = 1 solves one spring at once, whatever its ks") {
     sim::Description description = two_diagonals(sim::IntegratorId::pbd);
     description.cloth.ks = GENERATE(0.0, 5000.0);
