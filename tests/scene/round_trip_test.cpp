@@ -138,12 +138,13 @@ TEST_CASE("A scene that differs from the default in every member is read as it w
                           pair(o, o0)));
     }
     {
-        const auto& [integrator, precision, frames, substeps, iterations, tolerance, stiffness, seed, gravity,
-                     further] = scene.simulation.stepping;
+        const auto& [integrator, precision, frames, substeps, iterations, tolerance, stiffness, damping, acceleration,
+                     seed, gravity, further] = scene.simulation.stepping;
         const sim::Stepping s;
         REQUIRE(different(pair(integrator, s.integrator), pair(precision, s.precision),
                           pair(frames, s.frames_per_second), pair(substeps, s.substeps), pair(iterations, s.iterations),
-                          pair(tolerance, s.tolerance), pair(stiffness, s.pbd_stiffness), pair(seed, s.seed),
+                          pair(tolerance, s.tolerance), pair(stiffness, s.pbd_stiffness),
+                          pair(damping, s.spring_damping), pair(acceleration, s.acceleration), pair(seed, s.seed),
                           pair(gravity, s.gravity), pair(further, s.accelerations)));
     }
     {
