@@ -29,7 +29,7 @@ struct Snapshot {
     StepCounts counts;                        ///< of the last step
     InstructionSet instructions = InstructionSet::scalar;
     int threads = 1;                 ///< of the last step
-    StageSeconds seconds_per_step{}; ///< mean wall time of each stage, lately
+    StageSeconds seconds_per_step{}; ///< mean wall time of each stage since the last snapshot
 };
 
 } // namespace clothlab::sim

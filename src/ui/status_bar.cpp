@@ -70,7 +70,8 @@ void cells(Lab& lab, const sim::Snapshot& s) {
     double step = 0;
     for (const double seconds : s.seconds_per_step)
         step += seconds;
-    cell("step", microseconds(step), stage_table(s));
+    if (step > 0) // no step was taken since the state was last shown
+        cell("step", microseconds(step), stage_table(s));
     for (std::size_t i = 0; i < sim::stage_names.size() && step > 0; ++i)
         if (s.seconds_per_step[i] > 0) {
             static constexpr const char* short_names[] = {"forces", "method", "self", "colliders", "limit"};

@@ -60,7 +60,6 @@ struct SimulationThread::Worker {
     Clock::time_point published_at;
     sim::StageSeconds published_seconds{};
     std::uint64_t published_steps = 0;
-    sim::StageSeconds seconds_per_step{}; ///< of the steps between the last two publications that had any
 
     void start(const sim::Description& description) {
         try {
@@ -71,7 +70,7 @@ struct SimulationThread::Worker {
             margin.reset();
             ++run;
             error.clear();
-            published_seconds = seconds_per_step = {};
+            published_seconds = {};
             published_steps = 0;
             steps_to_take = 0;
             frames_to_take = 0;
@@ -206,9 +205,7 @@ struct SimulationThread::Worker {
         }
         const auto steps = static_cast<double>(simulation->steps() - published_steps);
         for (std::size_t i = 0; i < s->seconds_per_step.size(); ++i)
-            if (steps > 0)
-                seconds_per_step[i] = (simulation->stage_seconds()[i] - published_seconds[i]) / steps;
-        s->seconds_per_step = seconds_per_step;
+            s->seconds_per_step[i] = steps > 0 ? (simulation->stage_seconds()[i] - published_seconds[i]) / steps : 0;
         published_seconds = simulation->stage_seconds();
         published_steps = simulation->steps();
         published_at = Clock::now();

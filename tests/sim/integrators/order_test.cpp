@@ -73,6 +73,8 @@ TEST_CASE("Halving the step divides the error by two to the method's order") {
     const sim::IntegratorInfo info = GENERATE(from_range(sim::integrators().begin(), sim::integrators().end()));
     if (info.order == 0) // it does not converge to the springs' motion
         return;
+    if (sanitized && info.order == 1) // these take the most steps; slopes are the other builds' affair
+        return;
     // Where the error's leading term is most of it, and rounding is nothing. Explicit Euler's growth needs the finer
     // step.
     const int substeps = info.order == 1 ? 80 : info.order < 4 ? 20 : 10;
