@@ -10,6 +10,7 @@
 #include "sim/forces/forces.h"
 #include "sim/integrators/combine.h"
 #include "sim/integrators/integrator.h"
+#include "sim/integrators/runge_kutta_limit.h"
 #include "sim/stage_timer.h"
 
 namespace clothlab::sim {
@@ -113,8 +114,13 @@ const IntegratorTraits dormand_prince_traits{
             "(0: one step, no control). For reference solutions.",
     .family = Family::explicit_method,
     .order = 5,
-    .limit_formula = "0.997 (one step; the control divides it where needed)",
-    .limit = [](double) { return 0.997189; },
+    .limit_formula = "0.997 undamped, for one step; the control divides it where needed",
+    .limit =
+        [](double d) {
+            return runge_kutta_limit(
+                [](double y) { return 1 - y * y / 2 + std::pow(y, 4) / 24 - std::pow(y, 6) / 600; },
+                [](double y) { return y - y * y * y / 6 + std::pow(y, 5) / 120; }, d);
+        },
     .cost = "6 force evaluations a step of its own, and one more",
     .source = "J. R. Dormand, P. J. Prince, Journal of Computational and Applied Mathematics 6 (1980), table 2",
     .velocity = true,

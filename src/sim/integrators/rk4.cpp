@@ -1,9 +1,8 @@
 // The classical fourth order Runge-Kutta method: W. Kutta, Zeitschrift fuer Mathematik und Physik 46 (1901).
-#include <cmath>
-
 #include "sim/forces/forces.h"
 #include "sim/integrators/combine.h"
 #include "sim/integrators/integrator.h"
+#include "sim/integrators/runge_kutta_limit.h"
 #include "sim/stage_timer.h"
 
 namespace clothlab::sim {
@@ -41,8 +40,12 @@ const IntegratorTraits rk4_traits{
             "times that of Verlet.",
     .family = Family::explicit_method,
     .order = 4,
-    .limit_formula = "2 sqrt(2)",
-    .limit = [](double) { return 2 * std::sqrt(2.0); },
+    .limit_formula = "2 sqrt(2) undamped",
+    .limit =
+        [](double d) {
+            return runge_kutta_limit([](double y) { return 1 - y * y / 2 + y * y * y * y / 24; },
+                                     [](double y) { return y - y * y * y / 6; }, d);
+        },
     .cost = "4 force evaluations",
     .source = "W. Kutta, Zeitschrift fuer Mathematik und Physik 46 (1901)",
     .velocity = true,

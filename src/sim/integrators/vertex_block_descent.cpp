@@ -10,8 +10,8 @@
 //
 // Points of one colour have no springs between them: (column + 2 row) mod 5 differs across every spring of the stencil.
 // So they may be moved in any order, by any number of threads, to the same bits. Iterations begin at x_n + what the
-// step is without springs, the paper's "inertia". Its adaptive beginning would need the last step's velocities, and
-// Chebyshev acceleration a parameter that fits the scene: we have neither.
+// step is without springs, the paper's "inertia". Its adaptive beginning (section 3.7) needs the last step's velocities
+// and is not built. Chebyshev acceleration (section 3.8) is there where it is asked for.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
