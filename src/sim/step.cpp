@@ -5,6 +5,7 @@
 #include "sim/collision/colliders.h"
 #include "sim/collision/self_collision.h"
 #include "sim/forces/forces.h"
+#include "sim/integrators/combine.h"
 #include "sim/integrators/integrator.h"
 #include "sim/iterated_limit.h"
 #include "sim/stage_timer.h"
@@ -25,10 +26,7 @@ void begin(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) 
     if (model.rules.start == StartRule::physical && !traits(model.integrator).velocity) {
         // x(-dt) of a cloth at rest: L. Verlet's scheme is of second order only from there.
         accelerations(model, state.position, nullptr, state.time, work, work.force);
-        const Real half = static_cast<Real>(0.5 * model.dt * model.dt);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::size_t i = 0; i < state.position.size(); ++i)
-                state.previous.axes()[axis][i] = state.position.axes()[axis][i] + half * work.force.axes()[axis][i];
+        combine(state.previous, state.position, Term<Real>{static_cast<Real>(0.5 * model.dt * model.dt), &work.force});
     }
     adopt(model, state, work, model.dt);
 }
@@ -95,12 +93,13 @@ StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& w
                                                                             : limit_stretch(model, state, work);
     }
     const bool moved = counts.self_contacts + counts.contacts + counts.shortened_springs != 0;
+    if (moved)
+        work.force_of_step = 0;
     if (keep_velocity && moved)
         add_displacements(model, state, work.before_stages);
     work.choice.end_step();
     state.time += model.dt;
     state.steps += 1;
-    work.force_of_step = moved ? 0 : work.force_of_step;
     return counts;
 }
 
