@@ -296,9 +296,12 @@ void LabApp::show_frame(int frame_number) {
     if (frame_number > at)
         simulation_.step_frames(frame_number - at);
     simulation_.finish();
-    // Panels take a few frames to settle: docking, tables and scroll bars learn their sizes by being drawn.
-    for (int i = 0; i < 4; ++i)
+    // Panels take a few frames to settle: docking, tables and scroll bars learn their sizes by being drawn. What they
+    // ask the simulation for, as the stability margin once its panel is seen, is waited for.
+    for (int i = 0; i < 4; ++i) {
         frame();
+        simulation_.finish();
+    }
 }
 
 } // namespace clothlab::app

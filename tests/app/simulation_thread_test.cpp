@@ -55,6 +55,21 @@ TEST_CASE("Steps and frames are taken to the last one, with the positions of a s
     }
 }
 
+TEST_CASE("Frames and steps are taken in the order in which they were asked for, however late they are taken") {
+    const auto simulation = sim::Simulation::create(small_cloth());
+    app::SimulationThread thread;
+    thread.start(small_cloth());
+    for (int n = 0; n < 5; ++n) {
+        thread.step_frames(1);
+        thread.step(1);
+        thread.step_frames(1);
+        simulation->step_frame();
+        simulation->step();
+        simulation->step_frame();
+    }
+    REQUIRE(shows(finished(thread), *simulation));
+}
+
 TEST_CASE("No steps, or fewer than none, are no steps") {
     app::SimulationThread thread;
     thread.start(small_cloth());

@@ -41,10 +41,14 @@ struct SimulationThread::Worker {
     std::string error;
     bool playing = false;
     double speed = 1;
-    long long steps_to_take = 0;
-    std::uint64_t frames_to_take = 0;
-    bool in_frame = false; ///< playing has begun a frame that it is to complete
-    bool dirty = true;     ///< something changed since the last publication
+    /// Steps, or ends of frames, that were asked for.
+    struct Wanted {
+        bool frames;
+        int count;
+    };
+    std::deque<Wanted> wanted; ///< in the order in which they were asked for
+    bool in_frame = false;     ///< playing has begun a frame that it is to complete
+    bool dirty = true;         ///< something changed since the last publication
     double real_time_factor = 0;
     bool pause_on_diverged = true, pause_on_jitter = false;
 
@@ -72,8 +76,7 @@ struct SimulationThread::Worker {
             error.clear();
             published_seconds = {};
             published_steps = 0;
-            steps_to_take = 0;
-            frames_to_take = 0;
+            wanted.clear();
             in_frame = false;
         } catch (const std::exception& e) {
             error = e.what();
@@ -111,20 +114,19 @@ struct SimulationThread::Worker {
     /// Takes one step if there is anything to do now; otherwise says until when there is not.
     bool work(std::optional<Clock::time_point>& wait_until) {
         if (!simulation) {
-            steps_to_take = 0; // there is nothing to step
-            frames_to_take = 0;
+            wanted.clear(); // there is nothing to step
             return false;
         }
-        if (steps_to_take > 0) {
-            --steps_to_take;
-            take_step();
-            return true;
-        }
-        if (frames_to_take > 0) {
+        if (!wanted.empty()) {
             const std::uint64_t frame = simulation->frame();
             take_step();
-            if (simulation->frame() != frame && frames_to_take > 0) // trouble may have ended them all
-                --frames_to_take;
+            if (wanted.empty()) // trouble has ended them all
+                return true;
+            Wanted& next = wanted.front();
+            if (!next.frames || simulation->frame() != frame)
+                --next.count;
+            if (next.count == 0)
+                wanted.pop_front();
             return true;
         }
         if (!playing)
@@ -157,8 +159,7 @@ struct SimulationThread::Worker {
         const bool diverged = trouble->status == sim::Status::diverged;
         if (diverged ? pause_on_diverged : pause_on_jitter && !had_trouble) {
             playing = in_frame = false;
-            steps_to_take = 0;
-            frames_to_take = 0;
+            wanted.clear();
         }
     }
 
@@ -184,7 +185,7 @@ struct SimulationThread::Worker {
         factor_time = simulation->time();
     }
 
-    bool has_steps_to_take() const { return steps_to_take > 0 || frames_to_take > 0; }
+    bool has_steps_to_take() const { return !wanted.empty(); }
     bool idle() const { return !playing && !has_steps_to_take(); }
 
     Clock::time_point next_publication() const {
@@ -245,8 +246,7 @@ void SimulationThread::play(bool on) {
     send([on](Worker& w) {
         w.playing = on;
         w.in_frame = false;
-        w.steps_to_take = 0;
-        w.frames_to_take = 0;
+        w.wanted.clear();
         w.restart_pace();
         w.dirty = true;
     });
@@ -255,7 +255,8 @@ void SimulationThread::play(bool on) {
 void SimulationThread::step(int substeps) {
     send([substeps](Worker& w) {
         w.playing = w.in_frame = false;
-        w.steps_to_take += std::max(substeps, 0);
+        if (substeps > 0)
+            w.wanted.push_back({false, substeps});
         w.dirty = true;
     });
 }
@@ -263,7 +264,8 @@ void SimulationThread::step(int substeps) {
 void SimulationThread::step_frames(int frames) {
     send([frames](Worker& w) {
         w.playing = w.in_frame = false;
-        w.frames_to_take += static_cast<std::uint64_t>(std::max(frames, 0));
+        if (frames > 0)
+            w.wanted.push_back({true, frames});
         w.dirty = true;
     });
 }
