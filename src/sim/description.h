@@ -95,17 +95,22 @@ enum class IntegratorId : std::uint8_t {
 #undef CLOTHLAB_INTEGRATOR
 };
 
+/// Where vertex block descent begins: where the points would be without springs, or with as much of gravity as acted on
+/// each in the last step.
+enum class FirstGuess : std::uint8_t { inertia, adaptive };
+
 enum class Precision : std::uint8_t { single_precision, double_precision };
 
 struct Stepping {
     IntegratorId integrator = IntegratorId::course_verlet;
     Precision precision = Precision::single_precision;
     double frames_per_second = 90;
-    int substeps = 30;               ///< steps per frame
-    int iterations = 10;             ///< of methods that sweep over springs or points, per step
-    double tolerance = 1e-6;         ///< of methods that iterate or choose their step until they are accurate enough
-    double pbd_stiffness = 1;        ///< k of position based dynamics, 0 to 1
-    double spring_damping = 0;       ///< N s/m, of XPBD: against the change of a spring's length
+    int substeps = 30;         ///< steps per frame
+    int iterations = 10;       ///< of methods that sweep over springs or points, per step
+    double tolerance = 1e-6;   ///< of methods that iterate or choose their step until they are accurate enough
+    double pbd_stiffness = 1;  ///< k of position based dynamics, 0 to 1
+    double spring_damping = 0; ///< N s/m, of XPBD: against the change of a spring's length
+    FirstGuess first_guess = FirstGuess::inertia; ///< of vertex block descent
     double acceleration = 0;         ///< rho of vertex block descent's Chebyshev acceleration, 0 (none) to below 1
     double seed = 0;                 ///< of the vertical cloth's random offsets; a whole number below 2^53
     Vec3 gravity{0, -9.8, 0};        ///< m/s²

@@ -91,6 +91,7 @@ Model<Real> make_model(const Description& description, std::shared_ptr<const Gri
     model.tolerance = stepping.tolerance;
     model.pbd_stiffness = real(stepping.pbd_stiffness);
     model.spring_damping = real(stepping.spring_damping);
+    model.first_guess = stepping.first_guess;
     model.acceleration = stepping.acceleration;
     return model;
 }

@@ -66,6 +66,7 @@ struct Model {
     double tolerance = 1e-6;
     Real pbd_stiffness = 1;
     Real spring_damping = 0; ///< N s/m
+    FirstGuess first_guess = FirstGuess::inertia;
     double acceleration = 0;
 };
 

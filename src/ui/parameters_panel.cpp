@@ -51,6 +51,8 @@ void method(Lab& lab) {
         field_row(lab, "simulation.pbd_stiffness");
     if (traits.options & sim::uses_spring_damping)
         field_row(lab, "simulation.spring_damping");
+    if (traits.options & sim::uses_first_guess)
+        field_row(lab, "simulation.first_guess");
     if (traits.options & sim::uses_acceleration)
         field_row(lab, "simulation.acceleration");
     field_row(lab, "simulation.substeps");

@@ -138,14 +138,15 @@ TEST_CASE("A scene that differs from the default in every member is read as it w
                           pair(o, o0)));
     }
     {
-        const auto& [integrator, precision, frames, substeps, iterations, tolerance, stiffness, damping, acceleration,
-                     seed, gravity, further] = scene.simulation.stepping;
+        const auto& [integrator, precision, frames, substeps, iterations, tolerance, stiffness, damping, guess,
+                     acceleration, seed, gravity, further] = scene.simulation.stepping;
         const sim::Stepping s;
         REQUIRE(different(pair(integrator, s.integrator), pair(precision, s.precision),
                           pair(frames, s.frames_per_second), pair(substeps, s.substeps), pair(iterations, s.iterations),
                           pair(tolerance, s.tolerance), pair(stiffness, s.pbd_stiffness),
-                          pair(damping, s.spring_damping), pair(acceleration, s.acceleration), pair(seed, s.seed),
-                          pair(gravity, s.gravity), pair(further, s.accelerations)));
+                          pair(damping, s.spring_damping), pair(guess, s.first_guess),
+                          pair(acceleration, s.acceleration), pair(seed, s.seed), pair(gravity, s.gravity),
+                          pair(further, s.accelerations)));
     }
     {
         const auto& [kind, clock, velocity, gust, period, density, drag, lift] = scene.simulation.wind;

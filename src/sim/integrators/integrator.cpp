@@ -45,8 +45,9 @@ void adopt(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, 
     if (method.velocity)
         for (const std::uint32_t pin : model.pins)
             state.velocity.x[pin] = state.velocity.y[pin] = state.velocity.z[pin] = 0;
-    if (method.history != (state.previous_velocity.size() != 0)) {
-        state.previous_velocity = method.history ? state.velocity : Vec3Array<Real>();
+    const bool history = keeps_history(model);
+    if (history != (state.previous_velocity.size() != 0)) {
+        state.previous_velocity = history ? state.velocity : Vec3Array<Real>();
         state.history = 0;
     }
 }

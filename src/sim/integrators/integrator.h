@@ -25,7 +25,8 @@ enum MethodOption : unsigned {
     uses_tolerance = 2,
     uses_pbd_stiffness = 4,
     uses_spring_damping = 8,
-    uses_acceleration = 16
+    uses_acceleration = 16,
+    uses_first_guess = 32
 };
 
 inline constexpr double no_limit = std::numeric_limits<double>::infinity();
@@ -86,6 +87,13 @@ inline const IntegratorTraits& traits(IntegratorId id) {
 #undef CLOTHLAB_INTEGRATOR
     }
     return course_verlet_traits;
+}
+
+/// Whether states of a model have State::previous_velocity.
+template <class Real>
+bool keeps_history(const Model<Real>& model) {
+    const IntegratorTraits& method = traits(model.integrator);
+    return method.history || ((method.options & uses_first_guess) != 0 && model.first_guess == FirstGuess::adaptive);
 }
 
 /// Moves the masses by one time step with the model's method: positions, previous positions and velocities.

@@ -10,8 +10,8 @@
 //
 // Points of one colour have no springs between them: (column + 2 row) mod 5 differs across every spring of the stencil.
 // So they may be moved in any order, by any number of threads, to the same bits. Iterations begin at x_n + what the
-// step is without springs, the paper's "inertia". Its adaptive beginning (section 3.7) needs the last step's velocities
-// and is not built. Chebyshev acceleration (section 3.8) is there where it is asked for.
+// step is without springs, the paper's "inertia", or where its section 3.7 has them begin; section 3.8 accelerates
+// them.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -119,6 +119,29 @@ Triple<Real> solve(const PointBlock<Real>& b) {
     return {b.force.x / b.xx - l21 * y - l31 * z, y, z};
 }
 
+/// The paper's section 3.7, after a step that can be looked back at: puts the points where they would go with their
+/// velocities and as much of gravity as acted on them in that step, between none, for what lies or hangs still, and
+/// all, for what falls freely.
+template <class Real>
+void guess(const Model<Real>& model, State<Real>& state) {
+    const Real square = model.gx * model.gx + model.gy * model.gy + model.gz * model.gz;
+    if (state.history == 0 || square == 0)
+        return;
+    const Real dt = static_cast<Real>(model.dt);
+    const Vec3Array<Real>&p = state.previous, &v = state.velocity, &before = state.previous_velocity;
+    Vec3Array<Real>& x = state.position;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (model.pinned[i])
+            continue;
+        const Real acted =
+            (v.x[i] - before.x[i]) * model.gx + (v.y[i] - before.y[i]) * model.gy + (v.z[i] - before.z[i]) * model.gz;
+        const Real fall = std::clamp(acted / (square * dt), Real(0), Real(1)) * dt * dt;
+        x.x[i] = p.x[i] + dt * v.x[i] + fall * model.gx;
+        x.y[i] = p.y[i] + dt * v.y[i] + fall * model.gy;
+        x.z[i] = p.z[i] + dt * v.z[i] + fall * model.gz;
+    }
+}
+
 /// The paper's section 3.8: with w_1 = 1, w_2 = 2 / (2 - rho²), w_n = 4 / (4 - rho² w_{n-1}), what an iteration made of
 /// the positions becomes x = w (x - x_{n-2}) + x_{n-2}. It moves nothing from where the descent has ended.
 template <class Real>
@@ -157,6 +180,8 @@ void vertex_block_descent(const Model<Real>& model, State<Real>& state, Workspac
     set_wind(model, state, work, constant);
     const StageTimer timer(work, Stage::integrate);
     predict(model, implicit_prediction(model), constant, state);
+    if (model.first_guess == FirstGuess::adaptive)
+        guess(model, state);
     const double mass = static_cast<double>(model.mass);
     const Real a = static_cast<Real>(mass * (1 + model.damping_rate * model.dt) / (model.dt * model.dt));
     const Real momentum = static_cast<Real>(mass / model.dt);
@@ -215,6 +240,10 @@ void vertex_block_descent(const Model<Real>& model, State<Real>& state, Workspac
             for_ranges(model, work, [&](int, std::size_t begin, std::size_t end) { move_colour(colour, begin, end); });
         accelerator.end(state.position);
     }
+    if (model.first_guess == FirstGuess::adaptive) {
+        state.previous_velocity = state.velocity;
+        state.history = 1;
+    }
     velocities_from_displacements(model, state);
     counts.solver_iterations = static_cast<std::size_t>(model.iterations);
 }
@@ -229,11 +258,10 @@ const IntegratorTraits vertex_block_descent_traits{
     .limit_formula = "none",
     .limit = [](double) { return no_limit; },
     .cost = "iterations sweeps over the points, 12 springs each",
-    .source = "A. H. Chen, Z. Liu, Y. Yang, C. Yuksel, \"Vertex block descent\", SIGGRAPH 2024, section 3, with "
-              "inertia as the first guess",
+    .source = "A. H. Chen, Z. Liu, Y. Yang, C. Yuksel, \"Vertex block descent\", SIGGRAPH 2024, section 3",
     .velocity = true,
     .arrays = 3,
-    .options = uses_iterations | uses_acceleration};
+    .options = uses_iterations | uses_first_guess | uses_acceleration};
 
 CLOTHLAB_DEFINE_INTEGRATOR(vertex_block_descent)
 

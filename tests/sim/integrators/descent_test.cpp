@@ -1,5 +1,6 @@
 // Projective dynamics and vertex block descent: both find the solution of backward Euler.
 #include <Eigen/Dense>
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
@@ -8,6 +9,7 @@
 #include "sim/diagnostics.h"
 #include "sim/forces/springs.h"
 #include "sim/integrators/global_step.h"
+#include "sim/simulation.h"
 #include "small_cloth.h"
 
 using namespace clothlab;
@@ -67,6 +69,63 @@ TEST_CASE("Chebyshev's acceleration brings ten iterations of block descent neare
     INFO(plain << " " << accelerated << " " << left(0.7, 1000));
     REQUIRE(accelerated < 0.5 * plain);
     REQUIRE(left(0.7, 1000) < 1e-8);
+}
+
+TEST_CASE(
+    "Block descent's adaptive guess is nearer than inertia for cloth that hangs still, and falls as a stone does") {
+    sim::Description description = small_cloth(descent);
+    description.cloth.damping_rate = 20;
+    description.stepping.first_guess = sim::FirstGuess::adaptive;
+    description.stepping.iterations = 50;
+    Sheet<double> hanging(description);
+    for (int i = 0; i < 3000; ++i)
+        hanging.step();
+    const sim::State<double> rest = hanging.state;
+    const auto end_of_step = [&](sim::FirstGuess guess, int iterations) {
+        hanging.state = rest;
+        hanging.model.first_guess = guess;
+        hanging.model.iterations = iterations;
+        hanging.step();
+        return hanging.state.position;
+    };
+    const sim::Vec3Array<double> exact = end_of_step(sim::FirstGuess::adaptive, 2000);
+    const auto left = [&](sim::FirstGuess guess) {
+        const sim::Vec3Array<double> x = end_of_step(guess, 1);
+        double largest = 0;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            largest =
+                std::max(largest, norm(minus(Sheet<double>::coordinates(x, i), Sheet<double>::coordinates(exact, i))));
+        return largest;
+    };
+    const double adaptive = left(sim::FirstGuess::adaptive), inertia = left(sim::FirstGuess::inertia);
+    INFO(adaptive << " m " << inertia << " m");
+    REQUIRE(adaptive < 0.1 * inertia);
+
+    description.cloth.pinned.clear();
+    description.cloth.damping_rate = 0;
+    Sheet<double> falling(description);
+    for (int i = 0; i < 100; ++i)
+        falling.step();
+    for (std::size_t i = 0; i < falling.points(); ++i)
+        REQUIRE_THAT(falling.state.velocity.y[i], Catch::Matchers::WithinRel(-9.8 * 100 * falling.model.dt, 1e-9));
+}
+
+TEST_CASE("A run with the adaptive guess goes on from a saved state, and from a switch to it, bit for bit") {
+    sim::Description description = small_cloth(descent);
+    description.stepping.precision = sim::Precision::double_precision;
+    const auto straight = sim::Simulation::create(description);
+    straight->step_frame();
+    description.stepping.first_guess = sim::FirstGuess::adaptive;
+    straight->change(description);
+    for (int i = 0; i < 7; ++i)
+        straight->step();
+    const auto resumed = sim::Simulation::create(description);
+    resumed->load_state(straight->save_state());
+    for (int i = 0; i < 20; ++i) {
+        straight->step();
+        resumed->step();
+        REQUIRE(resumed->hash() == straight->hash());
+    }
 }
 
 TEST_CASE("For a point among pinned ones that pull, block descent is Newton's method: its digits double") {
