@@ -170,7 +170,7 @@ TEST_CASE("Every method but explicit Euler runs scenes like the shipped ones") {
     const sim::Precision precision = GENERATE(sim::Precision::single_precision, sim::Precision::double_precision);
     if (method.limit(0) == 0 && method.order < 2) // it grows too fast for any
         return;
-    if (sanitized && precision == sim::Precision::double_precision) // the same code, at the price of a minute
+    if (sanitized && (which != 0 || precision == sim::Precision::double_precision)) // the same code again
         return;
     INFO(method.name << ", scene " << which);
     const auto simulation = sim::Simulation::create(shipped(which, method, precision));
