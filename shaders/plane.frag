@@ -6,6 +6,7 @@ in vec3 world_position;
 out vec4 pixel;
 uniform vec3 centre, origin, axis_u, axis_v, plane_normal;
 uniform float radius, opacity;
+uniform bool lines_only;   // the ground grid
 
 // How much of a pixel is covered by lines of a width at whole numbers; too fine a grid becomes its mean.
 float grid(vec2 at, vec2 change, float width) {
@@ -22,11 +23,12 @@ void main() {
     vec2 change = max(fwidth(at), vec2(1e-7));
     float fine = grid(at * 10.0, change * 10.0, 0.02), coarse = grid(at, change, 0.006);
 
-    vec3 n = dot(frame.eye.xyz - world_position, plane_normal) < 0.0 ? -plane_normal : plane_normal;
+    vec3 n = dot(direction_to_eye(world_position), plane_normal) < 0.0 ? -plane_normal : plane_normal;
     float light = point_light(world_position, n) + ambient_light(n) + 0.7 * frame.ambient.y;
     vec3 base = vec3(0.050, 0.057, 0.066), line = vec3(0.16, 0.18, 0.20);
     vec3 colour = mix(base, line, max(0.55 * fine, coarse)) * light;
     float fade = 1.0 - smoothstep(0.25, 1.0, length(world_position - centre) / radius);
-    pixel = vec4(colour, fade * fade * opacity);
+    float cover = lines_only ? max(0.35 * fine, 0.8 * coarse) : 1.0;
+    pixel = vec4(lines_only ? line : colour, fade * fade * opacity * cover);
     if (pixel.a < 0.004) discard;
 }

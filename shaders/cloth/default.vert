@@ -1,16 +1,6 @@
 #version 330 core
 // The vertex stage of every cloth shader that has none of its own.
 #include "common/frame.glsl"
-in vec3 position;
-in vec3 normal;
-in vec2 uv;
-out vec3 world_position;
-out vec3 world_normal;
-out vec2 surface_uv;
+#include "common/vertex.glsl"
 
-void main() {
-    world_position = position;
-    world_normal = normal;
-    surface_uv = uv;
-    gl_Position = to_clip(position, 1.0);
-}
+void main() { place(placed(position), normal); }

@@ -1,4 +1,5 @@
 #version 330 core
+//@ shader title="Diffuse" help="Matt cloth under the lamp: the light that arrives is intensity / r²."
 // Matt cloth under a point light, each side in its own colour: kd I / r^2 max(0, n.l), with ambient and fill light.
 #include "common/frame.glsl"
 #include "common/cloth.glsl"

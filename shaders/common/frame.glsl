@@ -2,12 +2,15 @@
 layout(std140) uniform Frame {
     mat4 view;          // world to camera
     mat4 projection;    // camera to clip space
-    vec4 eye;           // xyz: m
+    vec4 eye;           // xyz: m; w: 1
     vec4 viewport;      // width, height in px, and their inverses
-    vec4 light;         // xyz: m; w: intensity, as it arrives at 1 m
+    vec4 lights[2];     // xyz: m; w: intensity, as it arrives at 1 m
     vec4 ambient;       // x: light from everywhere, y: from over the left shoulder
     vec4 cloth_depth;   // x, y: where the cloth begins and ends, as distance from the eye in m
 } frame;
+
+// From a point to the beholder, of length 1.
+vec3 direction_to_eye(vec3 world) { return normalize(frame.eye.xyz - frame.eye.w * world); }
 
 // A point's place in the picture, with its depth moved by a share of its distance: below 1 is nearer to the eye.
 vec4 to_clip(vec3 world, float depth) {

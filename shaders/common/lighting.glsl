@@ -1,10 +1,24 @@
 // Light in linear values; the framebuffer encodes them as sRGB. Needs common/frame.glsl.
 
-// The share of light that a matt surface sends back: a point light of intensity / r^2.
+const int lights = 2;
+
+// The light of one lamp that arrives at a point, intensity / r^2, and the unit vector to the lamp.
+float light_at(int lamp, vec3 position, out vec3 to_light) {
+    vec3 path = frame.lights[lamp].xyz - position;
+    float r2 = max(dot(path, path), 1e-6);
+    to_light = path * inversesqrt(r2);
+    return frame.lights[lamp].w / r2;
+}
+
+// The share of the lamps' light that a matt surface sends back.
 float point_light(vec3 position, vec3 normal) {
-    vec3 to_light = frame.light.xyz - position;
-    float r2 = max(dot(to_light, to_light), 1e-6);
-    return frame.light.w / r2 * max(0.0, dot(normal, to_light * inversesqrt(r2)));
+    float sum = 0.0;
+    for (int lamp = 0; lamp < lights; ++lamp) {
+        vec3 to_light;
+        float light = light_at(lamp, position, to_light);
+        sum += light * max(0.0, dot(normal, to_light));
+    }
+    return sum;
 }
 
 // Light from everywhere, a little more of it from above.

@@ -10,6 +10,7 @@
 #include "app/core/data_folder.h"
 #include "app/gui/file_dialog.h"
 #include "app/scene_view.h"
+#include "app/shader_list.h"
 #include "scene/io.h"
 
 namespace clothlab::app {
@@ -44,7 +45,7 @@ LabApp::LabApp(const LabOptions& options, scene::Scene scene, fs::path file)
         whole_.emplace(options.width, options.height, 1);
     lab_.open.fill(true);
     lab_.scenes = scene_entries();
-    lab_.shaders = shipped_shaders();
+    lab_.shaders = read_shader_list(data_path("shaders"));
     for (std::size_t i = 0; i < lab_.spring_colours.size(); ++i) {
         const glm::vec3& c = render::spring_colours[i];
         lab_.spring_colours[i] = {c.r, c.g, c.b};
@@ -189,6 +190,9 @@ void LabApp::carry_out_requests() {
                 else if constexpr (std::is_same_v<R, ui::BrowseForScene>)
                     dialog_ = std::make_unique<FileDialog>(
                         r.save ? FileDialog::Purpose::save : FileDialog::Purpose::open, lab_.file);
+                else if constexpr (std::is_same_v<R, ui::BrowseForTexture>)
+                    dialog_ = std::make_unique<FileDialog>(FileDialog::Purpose::texture, lab_.file),
+                    texture_wanted_ = r;
                 else if constexpr (std::is_same_v<R, ui::Screenshot>)
                     screenshot();
                 else if constexpr (std::is_same_v<R, ui::Play>)
@@ -231,7 +235,8 @@ void LabApp::draw_viewport() {
     viewport_.resize(now.width, now.height);
     try {
         draw_report_ = renderer_.draw(
-            to_render(lab_.scene, lab_.snapshot.get(), static_cast<double>(now.width) / now.height), viewport_);
+            to_render(lab_.scene, lab_.shaders, lab_.snapshot.get(), static_cast<double>(now.width) / now.height),
+            viewport_);
     } catch (const render::ShaderError& e) {
         say(true, e.what());
         lab_.scene.look.shader = shown_.scene.look.shader.empty() ? "diffuse" : shown_.scene.look.shader;
@@ -280,6 +285,8 @@ void LabApp::poll_file_dialog() {
         return;
     if (purpose == FileDialog::Purpose::open)
         open(*file);
+    else if (purpose == FileDialog::Purpose::texture)
+        lab_.scene.look.shaders[texture_wanted_.shader][texture_wanted_.parameter] = file->string();
     else
         save(file->has_extension() ? *file : fs::path(file->string() + ".json"));
 }

@@ -86,6 +86,7 @@ private:
     Shown shown_;
     render::DrawReport draw_report_;
     std::unique_ptr<FileDialog> dialog_;
+    ui::BrowseForTexture texture_wanted_; ///< what the dialog is for
     bool quit_ = false;
 };
 

@@ -11,6 +11,27 @@ glm::vec3 to_glm(const sim::Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+render::Light to_light(const scene::Lamp& lamp) {
+    return {to_glm(lamp.position), static_cast<float>(lamp.intensity)};
+}
+
+render::Uniform uniform(const scene::ShaderParameter& parameter, const scene::ShaderValue& value) {
+    switch (parameter.type) {
+    case scene::ShaderParameterType::number:
+        return {parameter.name, static_cast<float>(std::get<double>(value))};
+    case scene::ShaderParameterType::integer:
+        return {parameter.name, static_cast<int>(std::get<double>(value))};
+    case scene::ShaderParameterType::flag:
+        return {parameter.name, std::get<bool>(value)};
+    case scene::ShaderParameterType::colour:
+        return {parameter.name, render::linear(to_glm(std::get<sim::Vec3>(value)))};
+    case scene::ShaderParameterType::texture:
+        break;
+    }
+    return {parameter.name,
+            render::TextureName{std::get<std::string>(value), static_cast<render::TextureUsage>(parameter.usage)}};
+}
+
 } // namespace
 
 render::View to_view(const scene::Camera& camera, double aspect) {
@@ -28,7 +49,25 @@ render::View to_view(const scene::Camera& camera, double aspect) {
     return view;
 }
 
-render::Scene to_render(const scene::Scene& scene, const sim::Snapshot* snapshot, double aspect) {
+render::Surface to_surface(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders,
+                           const std::string& shader) {
+    render::Surface surface;
+    surface.shader = shader;
+    surface.sphere_lat_lines = look.sphere_latitude_lines;
+    surface.sphere_lon_lines = look.sphere_longitude_lines;
+    const auto found = std::find_if(shaders.begin(), shaders.end(),
+                                    [&](const scene::ShaderDeclaration& s) { return s.name == shader; });
+    if (found == shaders.end())
+        return surface;
+    surface.lines = found->lines;
+    surface.translucent = found->translucent;
+    for (const scene::ShaderParameter& p : found->parameters)
+        surface.uniforms.push_back(uniform(p, value_of(look, *found, p)));
+    return surface;
+}
+
+render::Scene to_render(const scene::Scene& scene, const std::vector<scene::ShaderDeclaration>& shaders,
+                        const sim::Snapshot* snapshot, double aspect) {
     render::Scene result;
     result.snapshot = snapshot;
     result.colliders = scene.simulation.colliders;
@@ -36,15 +75,25 @@ render::Scene to_render(const scene::Scene& scene, const sim::Snapshot* snapshot
     result.view = to_view(scene::camera_of(scene), aspect);
     const scene::Look& look = scene.look;
     render::Options& o = result.options;
-    o.shader = look.shader;
+    o.surface = to_surface(look, shaders, look.shader);
+    if (look.split.on) {
+        result.right = to_surface(look, shaders, look.split.shader);
+        result.right->sphere_lat_lines = look.split.sphere_latitude_lines;
+        result.right->sphere_lon_lines = look.split.sphere_longitude_lines;
+        result.divider = static_cast<float>(look.split.position);
+    }
     o.show_springs = {look.show_structural, look.show_shearing, look.show_bending};
     o.springs_over_surface = look.springs_over_surface;
     o.show_pins = look.show_pins;
     o.show_colliders = look.show_colliders;
+    o.ground_grid = look.ground_grid;
+    o.spheres_like_cloth = look.sphere == scene::SphereLook::cloth;
     // The front faces the viewer at first: up, or, for cloth that stands, to +z.
     o.swap_sides = scene.simulation.cloth.orientation == sim::Orientation::vertical;
-    o.sphere_lat_lines = look.sphere_latitude_lines;
-    o.sphere_lon_lines = look.sphere_longitude_lines;
+    o.lights = {to_light(look.lamp), to_light(look.second_lamp)};
+    o.ambient = static_cast<float>(look.ambient);
+    o.fill = static_cast<float>(look.fill);
+    o.shadow = look.shadow;
     return result;
 }
 

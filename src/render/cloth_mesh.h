@@ -22,6 +22,8 @@ public:
     /// No cloth: nothing is drawn.
     void clear();
 
+    /// Makes the points' attributes those of the next draw.
+    void bind() const { glBindVertexArray(vertices_.id()); }
     /// Draws with the program in use, as triangles with position, normal and uv (0 to 1 along columns and rows),
     /// anticlockwise seen from the side the normals point to. Returns the number of triangles.
     std::size_t draw_surface() const;

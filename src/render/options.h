@@ -1,8 +1,10 @@
-// How a scene is to be drawn: what the UI offers and scene files keep. Plain data; colours are sRGB, 0 to 1.
+// How a scene is to be drawn. Plain data; colours are sRGB, 0 to 1, unless said otherwise.
 #pragma once
 
 #include <array>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -16,6 +18,9 @@ constexpr glm::vec3 colour(unsigned rgb) {
             static_cast<float>(rgb & 255u) / 255.f};
 }
 
+/// sRGB to linear values (IEC 61966-2-1).
+glm::vec3 linear(const glm::vec3& srgb);
+
 /// Colours of structural, shear and bending springs, for lines and legends: three of Okabe and Ito's palette, which
 /// colour-blind people tell apart.
 inline constexpr std::array<glm::vec3, sim::spring_kinds> spring_colours = {colour(0x56B4E9), colour(0xE69F00),
@@ -25,31 +30,56 @@ inline constexpr glm::vec3 pin_colour = colour(0xFFFFFF);
 /// A point light: the light that arrives at distance r is intensity / r².
 struct Light {
     glm::vec3 position{1.9f, 3.2f, 2.6f}; ///< m
-    float intensity = 9.5f;               ///< at 1 m, in the unit in which 1 lights a white surface fully
+    float intensity = 0;                  ///< at 1 m, in the unit in which 1 lights a white surface fully; 0: off
     bool operator==(const Light&) const = default;
 };
 
-struct Options {
+/// How a shader reads a picture: see TextureLibrary.
+enum class TextureUsage : std::uint8_t { colour, height, ramp, environment };
+struct TextureName {
+    std::string name; ///< of a built-in texture, or a path
+    TextureUsage usage = TextureUsage::colour;
+    bool operator==(const TextureName&) const = default;
+};
+
+/// A value for one of the surface shader's own uniforms; a vec3 is set as it is.
+struct Uniform {
+    std::string name;
+    std::variant<float, int, bool, glm::vec3, TextureName> value;
+    bool operator==(const Uniform&) const = default;
+};
+
+/// How cloth, and spheres with the cloth's shader, are drawn.
+struct Surface {
     std::string shader = "diffuse"; ///< one of list_surface_shaders()
-    /// By SpringKind. The wireframe draws these lines alone; other shaders only with springs_over_surface.
+    bool lines = false;             ///< the shader draws springs, not triangles
+    bool translucent = false;       ///< drawn last, from the back to the front, and blended
+    std::vector<Uniform> uniforms;  ///< all that the shader declares
+    int sphere_lat_lines = 40;      ///< 3 and up
+    int sphere_lon_lines = 40;      ///< 3 and up
+    bool operator==(const Surface&) const = default;
+};
+
+struct Options {
+    Surface surface;
+    /// By SpringKind. A shader of lines draws these alone; other shaders only with springs_over_surface.
     std::array<bool, sim::spring_kinds> show_springs = {true, true, true};
     bool springs_over_surface = false; ///< the surface is then drawn darker
     bool show_pins = true;
     bool show_colliders = true;
-    bool swap_sides = false; ///< front and back colour the other way round, see below
-    /// The front is the side that looks up when the cloth is horizontal (-z when it is vertical).
-    glm::vec3 cloth_colour = colour(0xE0714F);
-    glm::vec3 back_colour = colour(0x9AA5B1);
+    bool ground_grid = false;        ///< at y = 0
+    bool spheres_like_cloth = false; ///< with the surface's shader
+    bool swap_sides = false;         ///< the front is the side that looks up when the cloth is horizontal (-z when it
+                                     ///< is vertical); swapped, shaders take the other for it
     glm::vec3 sphere_colour = colour(0xB4B8BD);
     glm::vec3 background_top = colour(0x1D2126);
     glm::vec3 background_bottom = colour(0x2F363E);
-    Light light;
-    float ambient = 0.16f;     ///< light from everywhere; 1 lights a white surface fully
-    float fill = 0.36f;        ///< light from over the beholder's left shoulder, in the same unit
-    int sphere_lat_lines = 40; ///< 3 and up
-    int sphere_lon_lines = 40; ///< 3 and up
-    float line_width = 1.5f;   ///< px; drawn thinner where the cells of the cloth are only a few pixels wide
-    float pin_size = 11;       ///< px
+    std::array<Light, 2> lights{Light{{1.9f, 3.2f, 2.6f}, 9.5f}, Light{}};
+    float ambient = 0.16f;   ///< light from everywhere; 1 lights a white surface fully
+    float fill = 0.36f;      ///< light from over the beholder's left shoulder, in the same unit
+    bool shadow = false;     ///< of the first light
+    float line_width = 1.5f; ///< px; drawn thinner where the cells of the cloth are only a few pixels wide
+    float pin_size = 11;     ///< px
     bool operator==(const Options&) const = default;
 };
 

@@ -7,6 +7,7 @@
 #include "render/collider_mesh.h"
 #include "render/projected.h"
 #include "render/shader_library.h"
+#include "render/sorted_triangles.h"
 
 namespace clothlab::render {
 
@@ -15,20 +16,12 @@ namespace {
 /// The uniform block Frame of shaders/common/frame.glsl, in its std140 layout.
 struct FrameBlock {
     glm::mat4 view, projection;
-    glm::vec4 eye;         ///< xyz in m
-    glm::vec4 viewport;    ///< width, height in px
-    glm::vec4 light;       ///< xyz in m, intensity
-    glm::vec4 ambient;     ///< x: light from everywhere, y: from over the left shoulder
-    glm::vec4 cloth_depth; ///< x, y: distance from the eye in m at which the cloth begins and ends
+    glm::vec4 eye;                   ///< xyz in m; w: 1
+    glm::vec4 viewport;              ///< width, height in px
+    std::array<glm::vec4, 2> lights; ///< xyz in m, intensity
+    glm::vec4 ambient;               ///< x: light from everywhere, y: from over the left shoulder
+    glm::vec4 cloth_depth;           ///< x, y: distance from the eye in m at which the cloth begins and ends
 };
-
-/// sRGB to linear values (IEC 61966-2-1).
-glm::vec3 linear(const glm::vec3& srgb) {
-    glm::vec3 result;
-    for (int i = 0; i < 3; ++i)
-        result[i] = srgb[i] <= 0.04045f ? srgb[i] / 12.92f : std::pow((srgb[i] + 0.055f) / 1.055f, 2.4f);
-    return result;
-}
 
 /// Everything that the pictures rely on and others may have changed.
 void set_state() {
@@ -47,6 +40,7 @@ void set_state() {
 }
 
 void reset_state() {
+    glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glDisable(GL_PROGRAM_POINT_SIZE);
@@ -55,7 +49,7 @@ void reset_state() {
     glBindBuffer(GL_UNIFORM_BUFFER, 0);
 }
 
-constexpr const char* always_needed[] = {"background", "sphere", "plane", "lines", "pins"};
+constexpr const char* always_needed[] = {"background", "sphere", "plane", "pins"};
 
 } // namespace
 
@@ -64,6 +58,7 @@ struct Renderer::Parts {
 
     ShaderLibrary shaders;
     ClothMesh cloth;
+    SortedTriangles sorted;
     SphereMesh sphere;
     VertexArray no_vertices = VertexArray::create(); ///< for shaders that make their own
     Buffer frame = Buffer::create();
@@ -71,12 +66,17 @@ struct Renderer::Parts {
     void load() {
         for (const char* name : always_needed)
             shaders.program(name);
+        shaders.surface(wireframe_shader);
     }
     void set_frame(const Scene& what, const Target& target, const ProjectedCloth& projected);
     void draw_background(const Options& options);
-    void draw_springs(const Options& options, bool depth_cue, DrawReport& report);
-    void draw_colliders(const Scene& what, DrawReport& report);
+    void draw_part(const Scene& what, const Surface& surface, DrawReport& report);
+    void use(const Program& program, const Options& options, const std::vector<Uniform>& uniforms);
+    void draw_cloth(const Scene& what, const Surface& surface, DrawReport& report);
+    void draw_springs(const Options& options, const Program& program, const Program* surface, DrawReport& report);
+    void draw_spheres(const Scene& what, const Surface& surface, DrawReport& report);
     void draw_planes(const Scene& what, DrawReport& report);
+    void draw_plane(const Program& program, const PlanePatch& patch);
     void draw_pins(const Scene& what, DrawReport& report);
 };
 
@@ -87,7 +87,8 @@ void Renderer::Parts::set_frame(const Scene& what, const Target& target, const P
     block.projection = projection_matrix(what.view, width / height);
     block.eye = glm::vec4(what.view.eye, 1);
     block.viewport = glm::vec4(width, height, 1 / width, 1 / height);
-    block.light = glm::vec4(what.options.light.position, what.options.light.intensity);
+    for (std::size_t i = 0; i < block.lights.size(); ++i)
+        block.lights[i] = glm::vec4(what.options.lights[i].position, what.options.lights[i].intensity);
     block.ambient = glm::vec4(what.options.ambient, what.options.fill, 0, 0);
     block.cloth_depth = glm::vec4(projected.nearest, projected.furthest, 0, 0);
     glBindBuffer(GL_UNIFORM_BUFFER, frame.id());
@@ -106,11 +107,31 @@ void Renderer::Parts::draw_background(const Options& options) {
     glEnable(GL_DEPTH_TEST);
 }
 
-void Renderer::Parts::draw_springs(const Options& options, bool depth_cue, DrawReport& report) {
-    const Program& program = shaders.program("lines");
+/// Takes a program of a surface into use, with its own parameters and what every surface is told.
+void Renderer::Parts::use(const Program& program, const Options& options, const std::vector<Uniform>& uniforms) {
     program.use();
+    for (const Uniform& uniform : uniforms) {
+        const char* name = uniform.name.c_str();
+        if (const auto* number = std::get_if<float>(&uniform.value))
+            program.set(name, *number);
+        else if (const auto* integer = std::get_if<int>(&uniform.value))
+            program.set(name, *integer);
+        else if (const auto* flag = std::get_if<bool>(&uniform.value))
+            program.set(name, *flag ? 1 : 0);
+        else if (const auto* vector = std::get_if<glm::vec3>(&uniform.value))
+            program.set(name, *vector);
+    }
+    program.set("object", glm::vec4(0, 0, 0, 1));
+    program.set("depth", 1.f);
+    program.set("swap_sides", options.swap_sides ? 1 : 0);
+    // Darker under springs, or these would not stand out.
+    program.set("shade", options.springs_over_surface ? 0.5f : 1.f);
+}
+
+void Renderer::Parts::draw_springs(const Options& options, const Program& program, const Program* surface,
+                                   DrawReport& report) {
     program.set("width", report.line_width);
-    program.set("depth_cue", depth_cue ? 0.45f : 0.f);
+    program.set("depth_cue", surface == nullptr ? 0.45f : 0.f);
     program.set("background", linear((options.background_top + options.background_bottom) * 0.5f));
     // Bending springs run beside the structural ones that they span, so that both are seen, and under all others.
     struct Look {
@@ -130,20 +151,65 @@ void Renderer::Parts::draw_springs(const Options& options, bool depth_cue, DrawR
     }
 }
 
-void Renderer::Parts::draw_colliders(const Scene& what, DrawReport& report) {
-    sphere.set_lines(what.options.sphere_lat_lines, what.options.sphere_lon_lines);
-    const Program& program = shaders.program("sphere");
-    program.use();
-    program.set("colour", linear(what.options.sphere_colour));
+void Renderer::Parts::draw_cloth(const Scene& what, const Surface& surface, DrawReport& report) {
+    const Options& options = what.options;
+    const Program& program = shaders.surface(surface.shader);
+    if (!surface.lines) {
+        use(program, options, surface.uniforms);
+        if (surface.translucent) {
+            glEnable(GL_BLEND);
+            glDepthMask(GL_FALSE);
+            report.cloth_triangles = sorted.draw(cloth, *what.snapshot, what.view);
+            glDepthMask(GL_TRUE);
+            glDisable(GL_BLEND);
+        } else {
+            report.cloth_triangles = cloth.draw_surface();
+        }
+    }
+    if (!surface.lines && !options.springs_over_surface)
+        return;
+    const Program& lines = surface.lines ? program : shaders.surface(wireframe_shader);
+    use(lines, options, surface.lines ? surface.uniforms : std::vector<Uniform>{});
+    draw_springs(options, lines, surface.lines ? nullptr : &program, report);
+}
+
+void Renderer::Parts::draw_spheres(const Scene& what, const Surface& surface, DrawReport& report) {
+    const Options& options = what.options;
+    sphere.set_lines(surface.sphere_lat_lines, surface.sphere_lon_lines);
+    // A shader of lines draws springs, of which a sphere has none.
+    const bool like_cloth = options.spheres_like_cloth && !surface.lines;
+    const Program& program = like_cloth ? shaders.surface(surface.shader) : shaders.program("sphere");
+    if (like_cloth)
+        use(program, options, surface.uniforms);
+    else
+        program.use();
+    program.set("colour", linear(options.sphere_colour));
+    program.set("swap_sides", 0);
+    program.set("shade", 1.f);
+    // A little smaller and further away than it is: cloth that lies on it cuts through it between its points, and must
+    // hide it, at its outline too.
+    program.set("depth", 1.004f);
     for (const sim::Collider& collider : what.colliders) {
         const auto* given = std::get_if<sim::Sphere>(&collider);
         const auto drawn = given != nullptr ? drawable_sphere(*given) : std::nullopt;
         if (!drawn)
             continue;
-        program.set("sphere", *drawn);
+        program.set("object", glm::vec4(glm::vec3(*drawn), 0.99f * drawn->w));
         sphere.draw();
         ++report.spheres;
     }
+}
+
+void Renderer::Parts::draw_plane(const Program& program, const PlanePatch& patch) {
+    program.set("centre", patch.centre);
+    program.set("origin", patch.origin);
+    program.set("axis_u", patch.u);
+    program.set("axis_v", patch.v);
+    program.set("plane_normal", patch.normal);
+    program.set("radius", patch.radius);
+    program.set("opacity", patch.see_through ? 0.35f : 1.f);
+    glDepthMask(patch.see_through ? GL_FALSE : GL_TRUE);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
 void Renderer::Parts::draw_planes(const Scene& what, DrawReport& report) {
@@ -151,21 +217,21 @@ void Renderer::Parts::draw_planes(const Scene& what, DrawReport& report) {
     program.use();
     glEnable(GL_BLEND);
     glBindVertexArray(no_vertices.id());
+    program.set("lines_only", 0);
     for (const sim::Collider& collider : what.colliders) {
         const auto* given = std::get_if<sim::Plane>(&collider);
         const auto patch = given != nullptr ? plane_patch(*given, what.view) : std::nullopt;
-        if (!patch)
+        if (!patch || !what.options.show_colliders)
             continue;
-        program.set("centre", patch->centre);
-        program.set("origin", patch->origin);
-        program.set("axis_u", patch->u);
-        program.set("axis_v", patch->v);
-        program.set("plane_normal", patch->normal);
-        program.set("radius", patch->radius);
-        program.set("opacity", patch->see_through ? 0.35f : 1.f);
-        glDepthMask(patch->see_through ? GL_FALSE : GL_TRUE);
-        glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+        draw_plane(program, *patch);
         ++report.planes;
+    }
+    if (what.options.ground_grid) {
+        program.set("lines_only", 1);
+        if (auto ground = plane_patch(sim::Plane{{0, 0, 0}, {0, 1, 0}, 0}, what.view)) {
+            ground->see_through = false;
+            draw_plane(program, *ground);
+        }
     }
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
@@ -199,16 +265,35 @@ const std::filesystem::path& Renderer::shader_folder() const {
 
 void Renderer::reload_shaders() {
     ShaderLibrary fresh(parts_->shaders.folder());
-    for (const char* name : always_needed)
-        fresh.program(name);
-    parts_->shaders = std::move(fresh);
+    std::swap(parts_->shaders, fresh);
+    try {
+        parts_->load();
+    } catch (const ShaderError&) {
+        std::swap(parts_->shaders, fresh);
+        throw;
+    }
+}
+
+/// One part of a split view, or the whole picture.
+void Renderer::Parts::draw_part(const Scene& what, const Surface& surface, DrawReport& report) {
+    draw_background(what.options);
+    const bool cloth_last = surface.translucent;
+    if (!cloth_last)
+        draw_cloth(what, surface, report);
+    if (what.options.show_colliders)
+        draw_spheres(what, surface, report);
+    draw_planes(what, report);
+    if (cloth_last && what.snapshot != nullptr)
+        draw_cloth(what, surface, report);
+    if (what.options.show_pins)
+        draw_pins(what, report);
 }
 
 DrawReport Renderer::draw(const Scene& what, Target& target) {
     Parts& parts = *parts_;
     const Options& options = what.options;
-    const bool wireframe = options.shader == wireframe_shader;
-    const Program* surface = wireframe ? nullptr : &parts.shaders.surface(options.shader);
+    for (const Surface* surface : {&options.surface, what.right ? &*what.right : &options.surface})
+        parts.shaders.surface(surface->shader);
 
     if (what.snapshot != nullptr)
         parts.cloth.update(*what.snapshot);
@@ -232,24 +317,16 @@ DrawReport Renderer::draw(const Scene& what, Target& target) {
     glClearDepth(1);
     glClear(GL_DEPTH_BUFFER_BIT);
     parts.set_frame(what, target, projected);
-    parts.draw_background(options);
-    if (surface != nullptr) {
-        surface->use();
-        // Darker under springs, or these would not stand out.
-        const float shade = options.springs_over_surface ? 0.5f : 1.f;
-        const glm::vec3 front = linear(options.cloth_colour) * shade, back = linear(options.back_colour) * shade;
-        surface->set("front_colour", options.swap_sides ? back : front);
-        surface->set("back_colour", options.swap_sides ? front : back);
-        report.cloth_triangles = parts.cloth.draw_surface();
+    if (what.right) {
+        const int divider =
+            static_cast<int>(std::lround(std::clamp(what.divider, 0.f, 1.f) * static_cast<float>(target.width())));
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(divider, 0, target.width() - divider, target.height());
+        DrawReport of_the_right = report;
+        parts.draw_part(what, *what.right, of_the_right);
+        glScissor(0, 0, divider, target.height());
     }
-    if (options.show_colliders)
-        parts.draw_colliders(what, report);
-    if (wireframe || options.springs_over_surface)
-        parts.draw_springs(options, wireframe, report);
-    if (options.show_colliders)
-        parts.draw_planes(what, report);
-    if (options.show_pins)
-        parts.draw_pins(what, report);
+    parts.draw_part(what, options.surface, report);
     reset_state();
     target.resolve();
     return report;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct Scene {
     std::span<const sim::GridPoint> pinned;
     View view;
     Options options;
+    /// A split view: how everything right of the divider is drawn. The report tells of the left part.
+    std::optional<Surface> right;
+    float divider = 0.5f; ///< as a share of the picture's width
 };
 
 /// Pixels from the left and the top, max included; empty when max is below min.
@@ -55,7 +59,7 @@ public:
     Renderer& operator=(Renderer&&) noexcept;
 
     /// Draws the scene over the whole target and resolves it. Leaves the framebuffer binding as it was, depth test,
-    /// blending and sRGB writing off. Throws ShaderError, before anything is drawn, for an options.shader that is
+    /// blending and sRGB writing off. Throws ShaderError, before anything is drawn, for a surface's shader that is
     /// missing or broken.
     DrawReport draw(const Scene& what, Target& target);
 

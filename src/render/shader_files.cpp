@@ -63,12 +63,12 @@ void append(ShaderSource& source, const std::filesystem::path& folder, const std
 } // namespace
 
 std::vector<std::string> list_surface_shaders(const std::filesystem::path& folder) {
-    std::vector<std::string> names{wireframe_shader};
+    std::vector<std::string> names;
     std::error_code error;
     std::filesystem::directory_iterator entries(folder / "cloth", error), end;
     for (; !error && entries != end; entries.increment(error)) {
         const std::filesystem::path& path = entries->path();
-        if (path.extension() == ".frag" && path.stem() != wireframe_shader)
+        if (path.extension() == ".frag")
             names.push_back(path.stem().string());
     }
     std::sort(names.begin(), names.end());

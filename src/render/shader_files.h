@@ -8,7 +8,7 @@
 
 namespace clothlab::render {
 
-/// The shader that every lab has without a file of its own: only the springs, as lines.
+/// The shader that draws springs over surfaces: lines in one colour.
 inline constexpr const char* wireframe_shader = "wireframe";
 
 /// A shader that cannot be read, compiled or linked. The message names file, line where there is one, and what the
@@ -26,8 +26,7 @@ private:
     int line_;
 };
 
-/// The names of the surface shaders in a shader folder: wireframe, and the stem of every cloth/*.frag, sorted. A folder
-/// that is not there has wireframe alone.
+/// The names of the cloth's shaders in a shader folder: the stem of every cloth/*.frag, sorted.
 std::vector<std::string> list_surface_shaders(const std::filesystem::path& folder);
 
 /// A shader's text, ready for the compiler, and where each of its lines comes from. The text has no #line directives:

@@ -127,6 +127,18 @@ std::optional<std::pair<std::size_t, std::string_view>> collider_key(const Scene
     return std::pair{index, rest.substr(second + 1)};
 }
 
+/// Shader and parameter of `look.shaders.SHADER.PARAMETER`; nothing for another key.
+std::optional<std::pair<std::string, std::string>> shader_key(std::string_view key) {
+    constexpr std::string_view prefix = "look.shaders.";
+    if (!key.starts_with(prefix))
+        return std::nullopt;
+    const std::string_view rest = key.substr(prefix.size());
+    const std::size_t dot = rest.find('.');
+    if (dot == std::string_view::npos || dot == 0 || dot + 1 == rest.size())
+        throw SceneError(std::string(key) + ": write look.shaders.SHADER.PARAMETER");
+    return std::pair{std::string(rest.substr(0, dot)), std::string(rest.substr(dot + 1))};
+}
+
 } // namespace
 
 void set_parameter(Scene& scene, std::string_view key, std::string_view value) {
@@ -147,6 +159,8 @@ void set_parameter(Scene& scene, std::string_view key, std::string_view value) {
             return void(scene.simulation.cloth.pinned = reader.pinned(document.root, name));
         if (key == "simulation.accelerations")
             return void(scene.simulation.stepping.accelerations = reader.vectors(document.root, name));
+        if (const auto parts = shader_key(key))
+            return void(scene.look.shaders[parts->first][parts->second] = reader.shader_value(document.root, name));
         if (const auto collider = collider_key(scene, key, document))
             return set_collider(scene, collider->first, collider->second, document, name);
         if (const Field* f = find_field(key))

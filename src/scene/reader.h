@@ -82,12 +82,16 @@ public:
             allowed.push_back("pinned");
         if (name == "simulation")
             allowed.push_back("accelerations");
+        if (name == "look")
+            allowed.push_back("shaders");
         for (const auto& [member, value] : node.members) {
             const std::string key = name + "." + member;
             if (key == "cloth.pinned")
                 result.simulation.cloth.pinned = pinned(value, key);
             else if (key == "simulation.accelerations")
                 result.simulation.stepping.accelerations = vectors(value, key);
+            else if (key == "look.shaders")
+                result.look.shaders = shaders(value, key);
             else if (const Field* f = find_field(key))
                 this->value(value, *f, result);
             else
@@ -177,6 +181,33 @@ public:
         for (const Node& item : node.items)
             result.push_back(vector(item, key + "[" + std::to_string(result.size()) + "]"));
         return result;
+    }
+
+    std::map<std::string, ShaderValues> shaders(const Node& node, const std::string& key) {
+        expect(node, key, Node::Type::object);
+        std::map<std::string, ShaderValues> result;
+        for (const auto& [shader, values] : node.members) {
+            expect(values, key + "." + shader, Node::Type::object);
+            for (const auto& [parameter, value] : values.members)
+                result[shader][parameter] = shader_value(value, key + "." + shader + "." + parameter);
+        }
+        return result;
+    }
+
+    /// Which type a shader wants, only the shader knows: see check_shader_values.
+    ShaderValue shader_value(const Node& node, const std::string& key) {
+        switch (node.type) {
+        case Node::Type::number:
+            return node.number;
+        case Node::Type::boolean:
+            return node.boolean;
+        case Node::Type::string:
+            return node.text;
+        case Node::Type::array:
+            return vector(node, key);
+        default:
+            document_.fail(node, key, "it must be a number, true or false, a text, or a list of three numbers");
+        }
     }
 
     sim::Vec3 vector(const Node& node, const std::string& key) {

@@ -2,8 +2,10 @@
 // and benchmarks share.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "sim/description.h"
 
@@ -28,17 +30,54 @@ CameraFrame frame(const Camera& camera);
 /// A camera that sees the whole scene as it starts: the cloth, the room it has to fall, and the spheres.
 Camera fitting_camera(const sim::Description& description);
 
+/// A value of a shader's parameter: a number, a switch, a colour (sRGB, 0 to 1 each), or a text (a texture's name).
+using ShaderValue = std::variant<double, bool, sim::Vec3, std::string>;
+using ShaderValues = std::map<std::string, ShaderValue>; ///< by the parameter's name
+
+/// The view of two shaders, or of two spheres of other coarseness, in one picture: what is on the right of the divider.
+struct SplitView {
+    bool on = false;
+    double position = 0.5; ///< of the divider, as a share of the picture's width
+    std::string shader = "wireframe";
+    int sphere_latitude_lines = 16;
+    int sphere_longitude_lines = 16;
+    bool operator==(const SplitView&) const = default;
+};
+
+/// A lamp: the light that arrives at distance r is intensity / r².
+struct Lamp {
+    sim::Vec3 position;   ///< m
+    double intensity = 0; ///< at 1 m, in the unit in which 1 lights a white surface fully; 0: off
+    bool operator==(const Lamp&) const = default;
+};
+
+/// What the drawn spheres look like: plain and grey, or with the cloth's shader.
+enum class SphereLook : std::uint8_t { plain, cloth };
+/// Samples per pixel: automatic is four, one on the screen of a machine that draws on its CPU.
+enum class Multisampling : std::uint8_t { automatic, off, two, four, eight };
+
 /// How the scene is drawn.
 struct Look {
     std::string shader = "diffuse";
+    /// Values of shaders' parameters where they are not the shader's own defaults, by the shader's name.
+    std::map<std::string, ShaderValues> shaders;
     bool show_structural = true; ///< springs, in wireframe and over the surface
     bool show_shearing = true;
     bool show_bending = true;
     bool springs_over_surface = false;
     bool show_pins = true;
     bool show_colliders = true;
+    SphereLook sphere = SphereLook::plain;
     int sphere_latitude_lines = 40;
     int sphere_longitude_lines = 40;
+    SplitView split;
+    Lamp lamp{{1.9, 3.2, 2.6}, 9.5};
+    Lamp second_lamp{{-1.5, 2, 1.5}, 0};
+    double ambient = 0.16; ///< light from everywhere; 1 lights a white surface fully
+    double fill = 0.36;    ///< light from over the beholder's left shoulder, in the same unit
+    bool shadow = true;    ///< of the first lamp
+    bool ground_grid = false;
+    Multisampling multisampling = Multisampling::automatic;
     bool operator==(const Look&) const = default;
 };
 

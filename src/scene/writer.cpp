@@ -24,6 +24,17 @@ Json to_json(const sim::Collider& collider) {
     return {{"type", "plane"}, {"point", to_json(p.point)}, {"normal", to_json(p.normal)}, {"friction", p.friction}};
 }
 
+Json to_json(const ShaderValue& value) {
+    return std::visit(
+        [](const auto& v) {
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(v)>, sim::Vec3>)
+                return to_json(v);
+            else
+                return Json(v);
+        },
+        value);
+}
+
 Json value_of(const Field& f, const Scene& scene) {
     switch (f.type) {
     case FieldType::text:
@@ -101,6 +112,9 @@ std::string write_scene(const Scene& scene) {
     Json& accelerations = json["simulation"]["accelerations"] = Json::array();
     for (const sim::Vec3& a : scene.simulation.stepping.accelerations)
         accelerations.push_back(to_json(a));
+    for (const auto& [shader, values] : scene.look.shaders)
+        for (const auto& [parameter, value] : values)
+            json["look"]["shaders"][shader][parameter] = to_json(value);
     Json& colliders = json["colliders"] = Json::array();
     for (const sim::Collider& c : scene.simulation.colliders)
         colliders.push_back(to_json(c));

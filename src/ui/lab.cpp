@@ -56,6 +56,13 @@ bool modified(const Lab& lab) {
     return a != b;
 }
 
+const scene::ShaderDeclaration* shader_in_use(const Lab& lab) {
+    const auto found =
+        std::find_if(lab.shaders.begin(), lab.shaders.end(),
+                     [&](const scene::ShaderDeclaration& shader) { return shader.name == lab.scene.look.shader; });
+    return found == lab.shaders.end() ? nullptr : &*found;
+}
+
 void resize_grid(scene::Scene& scene, int columns, int rows) {
     sim::Cloth& cloth = scene.simulation.cloth;
     const auto moved = [](int at, int from, int to) {

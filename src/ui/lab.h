@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/shader_parameters.h"
 #include "sim/snapshot.h"
 
 namespace clothlab::ui {
@@ -21,6 +21,12 @@ namespace clothlab::ui {
 struct SceneEntry {
     std::string name, description;
     std::filesystem::path file;
+};
+
+/// A texture that comes with the lab.
+struct TextureChoice {
+    std::string name, title;
+    scene::TextureUsage usage;
 };
 
 // What panels ask the app for.
@@ -33,6 +39,9 @@ struct SaveScene {
 struct BrowseForScene {
     bool save = false;
 }; ///< a file dialog of the system
+struct BrowseForTexture {
+    std::string shader, parameter;
+}; ///< a file dialog of the system, for a shader's texture
 struct Screenshot {};
 struct Play {
     bool on;
@@ -50,8 +59,8 @@ struct Undo {};
 struct Redo {};
 struct ResetLayout {};
 struct Quit {};
-using Request = std::variant<OpenScene, SaveScene, BrowseForScene, Screenshot, Play, StepFrame, StepSubstep, Restart,
-                             SetSpeed, PauseOnTrouble, Undo, Redo, ResetLayout, Quit>;
+using Request = std::variant<OpenScene, SaveScene, BrowseForScene, BrowseForTexture, Screenshot, Play, StepFrame,
+                             StepSubstep, Restart, SetSpeed, PauseOnTrouble, Undo, Redo, ResetLayout, Quit>;
 
 struct Message {
     bool error = false;
@@ -78,7 +87,8 @@ struct Lab {
     scene::Scene loaded;        ///< as loaded or last saved: what reset goes back to
     std::filesystem::path file; ///< that it came from
     std::vector<SceneEntry> scenes;
-    std::vector<std::string> shaders;
+    std::vector<scene::ShaderDeclaration> shaders;
+    std::vector<TextureChoice> textures;
 
     std::shared_ptr<const sim::Snapshot> snapshot; ///< newest state; none before the first
     bool playing = false;
@@ -110,6 +120,9 @@ struct Lab {
 
 /// Whether the scene differs from what was loaded in more than its camera.
 bool modified(const Lab& lab);
+
+/// The shader that the cloth is drawn with; none when no file declares it.
+const scene::ShaderDeclaration* shader_in_use(const Lab& lab);
 
 /// Changes the number of points along width or height and moves the pins to where they belong on the new grid.
 void resize_grid(scene::Scene& scene, int columns, int rows);

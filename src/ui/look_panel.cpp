@@ -23,50 +23,113 @@ void spring_switch(Lab& lab, sim::SpringKind kind, const char* label, bool& on) 
     ImGui::Dummy({2 * h, h});
 }
 
-} // namespace
-
-void draw_look(Lab& lab) {
-    scene::Look& look = lab.scene.look;
+/// A list of the shaders by title; true when another was chosen.
+bool shader_list(const Lab& lab, const char* id, std::string& chosen) {
+    std::string title = chosen;
+    for (const scene::ShaderDeclaration& shader : lab.shaders)
+        if (shader.name == chosen)
+            title = shader.title;
+    bool changed = false;
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::BeginCombo("##shader", ("Shader: " + look.shader).c_str())) {
-        for (const std::string& name : lab.shaders)
-            if (ImGui::Selectable(name.c_str(), name == look.shader))
-                look.shader = name;
+    if (ImGui::BeginCombo(id, title.c_str(), ImGuiComboFlags_HeightLarge)) {
+        for (const scene::ShaderDeclaration& shader : lab.shaders) {
+            if (ImGui::Selectable((shader.title + "##" + shader.name).c_str(), shader.name == chosen)) {
+                chosen = shader.name;
+                changed = true;
+            }
+            tooltip(shader.error.empty() ? shader.help : shader.error);
+        }
         ImGui::EndCombo();
     }
-    tooltip("How the cloth is drawn. Key W changes between wireframe and diffuse.");
+    return changed;
+}
 
-    ImGui::SeparatorText("Springs drawn");
-    const bool drawn = look.shader == "wireframe" || look.springs_over_surface;
-    ImGui::BeginDisabled(look.shader == "wireframe");
+void shader_parameters(Lab& lab, const scene::ShaderDeclaration& shader) {
+    if (!shader.error.empty()) {
+        ImGui::PushTextWrapPos();
+        ImGui::TextColored(colour::error, "%s", shader.error.c_str());
+        ImGui::PopTextWrapPos();
+    }
+    if (shader.parameters.empty() || !begin_fields(("shader " + shader.name).c_str()))
+        return;
+    for (const scene::ShaderParameter& parameter : shader.parameters)
+        shader_row(lab, shader, parameter);
+    end_fields();
+}
+
+void springs(Lab& lab, bool lines) {
+    scene::Look& look = lab.scene.look;
+    ImGui::BeginDisabled(lines);
     ImGui::Checkbox("Over the surface", &look.springs_over_surface);
     ImGui::EndDisabled();
     tooltip("Draw springs over the shaded cloth. The wireframe always draws them.");
-    ImGui::BeginDisabled(!drawn);
+    ImGui::BeginDisabled(!lines && !look.springs_over_surface);
     spring_switch(lab, sim::SpringKind::structural, "Structural", look.show_structural);
     spring_switch(lab, sim::SpringKind::shear, "Shear", look.show_shearing);
     spring_switch(lab, sim::SpringKind::bending, "Bending", look.show_bending);
     ImGui::EndDisabled();
+}
 
-    ImGui::SeparatorText("Also drawn");
-    ImGui::Checkbox("Pins", &look.show_pins);
-    ImGui::SameLine();
-    ImGui::Checkbox("Colliders", &look.show_colliders);
+void rows(Lab& lab, const char* id, std::initializer_list<std::string_view> keys) {
+    if (!begin_fields(id))
+        return;
+    for (const std::string_view key : keys)
+        field_row(lab, key);
+    end_fields();
+}
 
-    ImGui::SeparatorText("Drawn spheres, camera");
-    if (begin_fields("sphere and camera")) {
-        field_row(lab, "look.sphere_latitude_lines");
-        field_row(lab, "look.sphere_longitude_lines");
-        field_row(lab, "camera.fov");
-        end_fields();
+void split_view(Lab& lab) {
+    scene::SplitView& split = lab.scene.look.split;
+    ImGui::Checkbox("Compare with another on the right", &split.on);
+    tooltip("Draws the right part of the picture with another shader, or the sphere in another coarseness. Drag the "
+            "divider in the viewport.");
+    ImGui::BeginDisabled(!split.on);
+    shader_list(lab, "##split shader", split.shader);
+    tooltip("The shader of the right part, with its own parameters: choose it on the left to change them.");
+    rows(lab, "split", {"look.split_latitude_lines", "look.split_longitude_lines"});
+    ImGui::EndDisabled();
+}
+
+} // namespace
+
+void draw_look(Lab& lab) {
+    scene::Look& look = lab.scene.look;
+    shader_list(lab, "##shader", look.shader);
+    tooltip("How the cloth is drawn. Key W changes between wireframe and the last shader.");
+    const scene::ShaderDeclaration* shader = shader_in_use(lab);
+    if (shader)
+        shader_parameters(lab, *shader);
+
+    const bool lines = shader && shader->lines;
+    if (ImGui::CollapsingHeader("Springs drawn", ImGuiTreeNodeFlags_DefaultOpen))
+        springs(lab, lines);
+    if (ImGui::CollapsingHeader("Light"))
+        rows(lab, "light",
+             {"look.shadow", "look.lamp_intensity", "look.lamp_position", "look.second_lamp_intensity",
+              "look.second_lamp_position", "look.ambient", "look.fill"});
+    if (ImGui::CollapsingHeader("Also drawn", ImGuiTreeNodeFlags_DefaultOpen)) {
+        ImGui::Checkbox("Pins", &look.show_pins);
+        ImGui::SameLine();
+        ImGui::Checkbox("Colliders", &look.show_colliders);
+        ImGui::SameLine();
+        ImGui::Checkbox("Ground", &look.ground_grid);
+        tooltip(std::string(scene::find_field("look.ground_grid")->help));
+        rows(lab, "spheres",
+             {"look.sphere", "look.sphere_latitude_lines", "look.sphere_longitude_lines", "look.multisampling"});
     }
-    if (ImGui::Button(ICON_FA_EXPAND "  Fit view"))
-        lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
-    tooltip("Show the whole scene (F)");
-    ImGui::SameLine();
-    if (ImGui::Button(ICON_FA_VIDEO "  Scene's view"))
-        lab.scene.camera = scene::camera_of(lab.loaded);
-    tooltip("Back to the camera that the scene was loaded with");
+    if (ImGui::CollapsingHeader("Split view"))
+        split_view(lab);
+
+    if (ImGui::CollapsingHeader("Camera")) {
+        rows(lab, "camera", {"camera.fov"});
+        if (ImGui::Button(ICON_FA_EXPAND "  Fit view"))
+            lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
+        tooltip("Show the whole scene (F)");
+        ImGui::SameLine();
+        if (ImGui::Button(ICON_FA_VIDEO "  Scene's view"))
+            lab.scene.camera = scene::camera_of(lab.loaded);
+        tooltip("Back to the camera that the scene was loaded with");
+    }
 }
 
 } // namespace clothlab::ui

@@ -14,48 +14,12 @@ using scene::Effect;
 using scene::Field;
 using scene::FieldType;
 
-/// "%.3g N/m" and the like; a percent sign in the unit is doubled.
-std::string format_with_unit(const char* number, std::string_view unit) {
-    std::string format = number;
-    if (!unit.empty() && unit != "°")
-        format += ' ';
-    for (const char c : unit)
-        format += c == '%' ? "%%" : std::string(1, c);
-    return format;
-}
-
 std::string help_of(const Field& f) {
     std::string text(f.help);
     text += "\n\n" + std::string(f.key) + ": " + scene::allowed_values(f) + ".";
     if (f.effect == Effect::restart)
         text += " A change restarts the simulation.";
     return text;
-}
-
-void label_cell(const char* label, const std::string& help, bool changed) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
-    if (changed)
-        ImGui::TextColored(colour::accent, "%s", label);
-    else
-        ImGui::TextUnformatted(label);
-    tooltip(help);
-    ImGui::TableNextColumn();
-    ImGui::SetNextItemWidth(-1);
-}
-
-bool reset_cell(bool changed) {
-    ImGui::TableNextColumn();
-    return changed && icon_button(ICON_FA_ROTATE_LEFT, "##reset", "Back to the scene's value");
-}
-
-/// Three significant digits are all that a slider's pixels can mean.
-double round_for_slider(double v) {
-    if (v == 0 || !std::isfinite(v))
-        return v;
-    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(v))) - 2);
-    return std::round(v / unit) * unit;
 }
 
 void assign(Lab& lab, const Field& f, double value) {
@@ -138,6 +102,40 @@ bool edit_vector(sim::Vec3& v, double min, double max, const char* format) {
 }
 
 } // namespace
+
+std::string format_with_unit(const char* number, std::string_view unit) {
+    std::string format = number;
+    if (!unit.empty() && unit != "°")
+        format += ' ';
+    for (const char c : unit)
+        format += c == '%' ? "%%" : std::string(1, c);
+    return format;
+}
+
+void label_cell(const char* label, const std::string& help, bool changed) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    if (changed)
+        ImGui::TextColored(colour::accent, "%s", label);
+    else
+        ImGui::TextUnformatted(label);
+    tooltip(help);
+    ImGui::TableNextColumn();
+    ImGui::SetNextItemWidth(-1);
+}
+
+bool reset_cell(bool changed) {
+    ImGui::TableNextColumn();
+    return changed && icon_button(ICON_FA_ROTATE_LEFT, "##reset", "Back to the scene's value");
+}
+
+double round_for_slider(double v) {
+    if (v == 0 || !std::isfinite(v))
+        return v;
+    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(v))) - 2);
+    return std::round(v / unit) * unit;
+}
 
 bool begin_fields(const char* id) {
     if (!ImGui::BeginTable(id, 3, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoSavedSettings))

@@ -13,6 +13,16 @@ namespace clothlab::ui {
 bool begin_fields(const char* id);
 void end_fields();
 
+// What rows of such a table are made of.
+/// A new row's label, coloured where the value was changed; the widget comes next.
+void label_cell(const char* label, const std::string& help, bool changed);
+/// The row's last cell: true when the reset button, which is there where the value was changed, is pressed.
+bool reset_cell(bool changed);
+/// "%.3g N/m" and the like for ImGui's sliders; a percent sign in the unit is doubled.
+std::string format_with_unit(const char* number, std::string_view unit);
+/// To three significant digits: all that a slider's pixels can mean.
+double round_for_slider(double value);
+
 /// How an entry of a list reads, and what its tooltip says.
 struct ChoiceText {
     std::string title, help;
@@ -22,6 +32,9 @@ struct ChoiceText {
 /// a button that resets it to the loaded scene's value where it differs. A list shows `texts`, one for each value,
 /// where there are any, and otherwise the names that files use.
 void field_row(Lab& lab, std::string_view key, std::span<const ChoiceText> texts = {});
+
+/// A row that edits one parameter of a shader, with a reset to the loaded scene's value or else the shader's own.
+void shader_row(Lab& lab, const scene::ShaderDeclaration& shader, const scene::ShaderParameter& parameter);
 
 /// A row for a number that is not in the table of fields (a collider's). True when it was changed.
 bool number_row(const char* label, const char* help, double& value, double loaded, double min, double max,

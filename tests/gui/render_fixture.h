@@ -7,6 +7,8 @@
 
 #include <catch2/catch_test_macros.hpp>
 
+#include "app/scene_view.h"
+#include "app/shader_list.h"
 #include "gui/gl_context.h"
 #include "render/renderer.h"
 #include "support/files.h"
@@ -39,11 +41,21 @@ inline render::View vertical_view(float height) {
     return view;
 }
 
+/// A shipped shader with the parameters that it declares, all at their defaults but for those given.
+inline render::Surface shader_of(const std::string& name, const scene::ShaderValues& values = {}) {
+    static const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list(shader_folder);
+    scene::Look look;
+    look.shaders[name] = values;
+    scene::check_shader_values(look, shaders, "test");
+    return app::to_surface(look, shaders, name);
+}
+
 /// A snapshot seen from above, or from below with a negative height.
 inline render::Scene scene_of(const sim::Snapshot& snapshot, float eye_height = 2) {
     render::Scene scene;
     scene.snapshot = &snapshot;
     scene.view = vertical_view(eye_height);
+    scene.options.surface = shader_of("diffuse");
     return scene;
 }
 

@@ -65,11 +65,11 @@ TEST_CASE("Light is computed in linear values and written as sRGB", "[render]") 
     const sim::Snapshot cloth = flat_cloth(3, 3);
     render::Scene scene = scene_of(cloth);
     scene.options.fill = 0;
-    scene.options.cloth_colour = {1, 1, 1};
-    scene.options.light.intensity = 0;
+    scene.options.surface = shader_of("diffuse", {{"front_colour", "#FFFFFF"}});
+    scene.options.lights = {};
     SECTION("ambient light of 1 shows the colour itself") {
         scene.options.ambient = 1;
-        scene.options.cloth_colour = render::colour(0x8040C0);
+        scene.options.surface = shader_of("diffuse", {{"front_colour", "#8040C0"}});
         const render::Image image = studio.draw(scene);
         CHECK(image.pixel(80, 45)[0] == Approx(0x80).margin(1));
         CHECK(image.pixel(80, 45)[1] == Approx(0x40).margin(1));
@@ -77,9 +77,9 @@ TEST_CASE("Light is computed in linear values and written as sRGB", "[render]") 
     }
     SECTION("a point light falls off with the square of its distance") {
         scene.options.ambient = 0;
-        scene.options.light.intensity = 0.5f;
+        scene.options.lights[0].intensity = 0.5f;
         for (const double height : {1.0, 2.0, 4.0}) {
-            scene.options.light.position = {0, static_cast<float>(height), 0};
+            scene.options.lights[0].position = {0, static_cast<float>(height), 0};
             const render::Image image = studio.draw(scene);
             CHECK(image.pixel(80, 45)[1] == Approx(srgb(0.5 / (height * height))).margin(2));
         }
@@ -90,7 +90,7 @@ TEST_CASE("Switching a spring kind off removes its lines and nothing else", "[re
     Studio studio;
     const sim::Snapshot cloth = flat_cloth(6, 6);
     render::Scene scene = scene_of(cloth);
-    scene.options.shader = render::wireframe_shader;
+    scene.options.surface = shader_of("wireframe");
     scene.options.line_width = 2.5f;
     const render::Image all = studio.draw(scene);
     const render::DrawReport full = studio.report;
@@ -185,7 +185,7 @@ TEST_CASE("Non-finite points leave a hole and raise no GL error", "[render]") {
         bad.positions[i] = values[i % 3];
     for (const char* shader : {"diffuse", "wireframe"}) {
         render::Scene scene = scene_of(bad);
-        scene.options.shader = shader;
+        scene.options.surface = shader_of(shader);
         CHECK(count_differences(studio.draw(scene), empty) == 0);
         CHECK(studio.report.cloth_triangles + studio.report.springs[0] + studio.report.points_in_view == 0);
         CHECK(studio.report.cloth_box.empty());
@@ -203,8 +203,8 @@ TEST_CASE("Any grid and any size of picture draws", "[render]") {
             for (const char* shader : {"diffuse", "wireframe"}) {
                 render::Scene scene = scene_of(cloth);
                 scene.colliders = colliders;
-                scene.options.shader = shader;
-                scene.options.sphere_lat_lines = columns - 10;
+                scene.options.surface = shader_of(shader);
+                scene.options.surface.sphere_lat_lines = columns - 10;
                 const render::Image image = studio.draw(scene);
                 CHECK((image.width == std::max(1, width) && image.height == std::max(1, height)));
                 CHECK((studio.report.width == image.width && studio.report.height == image.height));
@@ -226,7 +226,7 @@ TEST_CASE("A view from inside the cloth draws", "[render]") {
     scene.view.target = {0.3f, 0, 0.2f};
     scene.view.up = {0, 1, 0};
     for (const char* shader : {"diffuse", "wireframe"}) {
-        scene.options.shader = shader;
+        scene.options.surface = shader_of(shader);
         studio.draw(scene);
         CHECK(studio.report.points_in_view > 0);
         CHECK(studio.report.points_in_view < 400);

@@ -97,6 +97,7 @@ TEST_CASE("A scene that differs from the default in every member is read as it w
     }
     scene.name = "n";
     scene.description = "d";
+    scene.look.shaders = {{"diffuse", {{"front_colour", sim::Vec3{1, 0, 0.5}}}}};
     scene.simulation.cloth.pinned = {{1, 0}};
     scene.simulation.stepping.accelerations = {{1, 2, 3}};
     scene.simulation.colliders = {sim::Sphere{{1, 2, 3}, 4, 0.5}, sim::Plane{{6, 7, 8}, {9, 10, 11}, 0.75}};
@@ -117,12 +118,22 @@ TEST_CASE("A scene that differs from the default in every member is read as it w
                           pair(fov, c.fov)));
     }
     {
-        const auto& [shader, structural, shearing, bending, over, pins, colliders, latitude, longitude] = scene.look;
-        const auto& [shader0, structural0, shearing0, bending0, over0, pins0, colliders0, latitude0, longitude0] =
-            standard.look;
-        REQUIRE(different(pair(shader, shader0), pair(structural, structural0), pair(shearing, shearing0),
-                          pair(bending, bending0), pair(over, over0), pair(pins, pins0), pair(colliders, colliders0),
-                          pair(latitude, latitude0), pair(longitude, longitude0)));
+        const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = scene.look;
+        const auto& [a0, b0, c0, d0, e0, f0, g0, h0, i0, j0, k0, l0, m0, n0, o0, p0, q0, r0, s0] = standard.look;
+        REQUIRE(different(pair(a, a0), pair(b, b0), pair(c, c0), pair(d, d0), pair(e, e0), pair(f, f0), pair(g, g0),
+                          pair(h, h0), pair(i, i0), pair(j, j0), pair(k, k0), pair(l, l0), pair(m, m0), pair(n, n0),
+                          pair(o, o0), pair(p, p0), pair(q, q0), pair(r, r0), pair(s, s0)));
+    }
+    {
+        const auto& [on, position, shader, latitude, longitude] = scene.look.split;
+        const scene::SplitView v;
+        REQUIRE(different(pair(on, v.on), pair(position, v.position), pair(shader, v.shader),
+                          pair(latitude, v.sphere_latitude_lines), pair(longitude, v.sphere_longitude_lines)));
+        const auto& [place, intensity] = scene.look.lamp;
+        const auto& [second_place, second_intensity] = scene.look.second_lamp;
+        REQUIRE(different(pair(place, standard.look.lamp.position), pair(intensity, standard.look.lamp.intensity),
+                          pair(second_place, standard.look.second_lamp.position),
+                          pair(second_intensity, standard.look.second_lamp.intensity)));
     }
     {
         const auto& [cloth, colliders, wind, rules, stepping] = scene.simulation;

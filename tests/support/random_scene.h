@@ -30,6 +30,8 @@ public:
             s.simulation.stepping.accelerations.push_back(vector());
         for (std::uint64_t n = below(5); n > 0; --n)
             s.simulation.colliders.push_back(collider());
+        for (std::uint64_t n = below(4); n > 0; --n)
+            s.look.shaders[text()][text()] = shader_value();
         return s;
     }
 
@@ -108,6 +110,19 @@ public:
         while (!(std::hypot(normal.x, normal.y, normal.z) > 0) || std::isinf(std::hypot(normal.x, normal.y, normal.z)))
             normal = vector();
         return sim::Plane{vector(), normal, below(3) == 0 ? 1.0 : random_.unit()};
+    }
+
+    scene::ShaderValue shader_value() {
+        switch (below(4)) {
+        case 0:
+            return number();
+        case 1:
+            return below(2) == 0;
+        case 2:
+            return vector();
+        default:
+            return text();
+        }
     }
 
     std::uint64_t below(std::uint64_t end) { return random_.next() % end; }

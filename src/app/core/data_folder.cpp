@@ -62,7 +62,7 @@ std::vector<fs::path> shipped_scenes() {
 }
 
 std::vector<std::string> shipped_shaders() {
-    std::vector<std::string> names{"wireframe"};
+    std::vector<std::string> names;
     for (const fs::path& file : files_in(data_path("shaders") / "cloth", ".frag"))
         names.push_back(file.stem().string());
     return names;

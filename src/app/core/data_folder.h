@@ -20,7 +20,7 @@ std::filesystem::path scene_path(const std::string& what);
 /// The scene files that the program comes with, by name.
 std::vector<std::filesystem::path> shipped_scenes();
 
-/// The names of the shaders that the program comes with: "wireframe", and a file of shaders/cloth/ each.
+/// The names of the shaders that the program comes with: a file shaders/cloth/NAME.frag each.
 std::vector<std::string> shipped_shaders();
 
 } // namespace clothlab::app

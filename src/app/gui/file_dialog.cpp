@@ -12,7 +12,11 @@ struct FileDialog::Parts {
 FileDialog::FileDialog(Purpose purpose, const std::filesystem::path& start)
     : purpose_(purpose), parts_(std::make_unique<Parts>()) {
     const std::vector<std::string> filters{"Scenes", "*.json", "All files", "*"};
-    if (purpose == Purpose::open)
+    if (purpose == Purpose::texture)
+        parts_->open = std::make_unique<pfd::open_file>(
+            "Choose a picture", start.parent_path().string(),
+            std::vector<std::string>{"Pictures", "*.png *.jpg *.jpeg *.hdr", "All files", "*"});
+    else if (purpose == Purpose::open)
         parts_->open = std::make_unique<pfd::open_file>("Open a scene", start.string(), filters);
     else
         parts_->save = std::make_unique<pfd::save_file>("Save the scene", start.string(), filters);

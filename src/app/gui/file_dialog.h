@@ -9,7 +9,7 @@ namespace clothlab::app {
 
 class FileDialog {
 public:
-    enum class Purpose { open, save };
+    enum class Purpose { open, save, texture };
     /// Shows the dialog.
     FileDialog(Purpose purpose, const std::filesystem::path& start);
     ~FileDialog();

@@ -9,6 +9,7 @@
 #include "app/gui/film.h"
 #include "app/lab_app.h"
 #include "app/scene_view.h"
+#include "app/shader_list.h"
 #include "scene/io.h"
 #include "sim/simulation.h"
 
@@ -81,20 +82,21 @@ class SceneCamera final : public Camera {
 public:
     SceneCamera(const RenderArguments& a, scene::Scene scene)
         : scene_(std::move(scene)), window_(app::Window::Kind::offscreen, a.width, a.height, "clothlab"),
-          renderer_(app::data_path("shaders")), target_(a.width, a.height),
-          simulation_(sim::Simulation::create(scene_.simulation)) {}
+          shaders_(app::read_shader_list(app::data_path("shaders"))), renderer_(app::data_path("shaders")),
+          target_(a.width, a.height), simulation_(sim::Simulation::create(scene_.simulation)) {}
     render::Image picture(int frame) override {
         while (simulation_->frame() < static_cast<std::uint64_t>(frame))
             simulation_->step_frame();
         simulation_->capture(snapshot_);
-        renderer_.draw(app::to_render(scene_, &snapshot_, static_cast<double>(target_.width()) / target_.height()),
-                       target_);
+        const double aspect = static_cast<double>(target_.width()) / target_.height();
+        renderer_.draw(app::to_render(scene_, shaders_, &snapshot_, aspect), target_);
         return target_.read();
     }
 
 private:
     scene::Scene scene_;
     app::Window window_;
+    std::vector<scene::ShaderDeclaration> shaders_;
     render::Renderer renderer_;
     render::Target target_;
     std::unique_ptr<sim::Simulation> simulation_;
@@ -119,13 +121,11 @@ int render(const RenderArguments& a) {
         scene.camera = scene::read_camera(scene::read_text_file(a.camera), a.camera);
     if (!a.shader.empty())
         scene.look.shader = a.shader;
-    const std::vector<std::string> shaders = app::shipped_shaders();
-    if (std::find(shaders.begin(), shaders.end(), scene.look.shader) == shaders.end()) {
-        std::string names;
-        for (const std::string& name : shaders)
-            names += (names.empty() ? "" : ", ") + name;
-        throw scene::SceneError("there is no shader \"" + scene.look.shader + "\"; there are " + names);
-    }
+    const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list(app::data_path("shaders"));
+    app::find_shader(shaders, scene.look.shader);
+    if (scene.look.split.on)
+        app::find_shader(shaders, scene.look.split.shader);
+    scene::check_shader_values(scene.look, shaders, a.scene.scene);
     const double frames_per_second = scene.simulation.stepping.frames_per_second;
     std::unique_ptr<Camera> camera;
     if (a.ui)

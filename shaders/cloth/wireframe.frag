@@ -1,4 +1,5 @@
 #version 330 core
+//@ shader lines title="Wireframe" help="The springs alone, each kind in its own colour."
 // One colour, the same as in the legend; further away it recedes into the background.
 #include "common/frame.glsl"
 in float distance_from_eye;
