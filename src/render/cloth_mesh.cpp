@@ -31,6 +31,7 @@ ClothMesh::ClothMesh() {
     attribute(position_, ShaderLibrary::position, 3);
     attribute(normal_, ShaderLibrary::normal, 3);
     attribute(uv_, ShaderLibrary::uv, 2);
+    attribute(tangent_, ShaderLibrary::tangent, 3);
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
@@ -72,9 +73,11 @@ void ClothMesh::update(const sim::Snapshot& snapshot) {
 
     if (not_drawable_ == 0) {
         cloth_normals(columns_, rows_, positions, {}, normals_);
+        cloth_tangents(columns_, rows_, positions, {}, tangents_);
         fill(position_, positions, GL_STREAM_DRAW);
     } else {
         cloth_normals(columns_, rows_, positions, usable_, normals_);
+        cloth_tangents(columns_, rows_, positions, usable_, tangents_);
         positions_.assign(positions.begin(), positions.end());
         for (std::size_t i = 0; i < usable_.size(); ++i)
             if (usable_[i] == 0)
@@ -82,7 +85,21 @@ void ClothMesh::update(const sim::Snapshot& snapshot) {
         fill<float>(position_, positions_, GL_STREAM_DRAW);
     }
     fill<float>(normal_, normals_, GL_STREAM_DRAW);
+    fill<float>(tangent_, tangents_, GL_STREAM_DRAW);
+    upload_quantity(snapshot.quantity);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
+}
+
+void ClothMesh::upload_quantity(std::span<const float> quantity) {
+    glBindVertexArray(vertices_.id());
+    if (quantity.size() == usable_.size()) {
+        fill(quantity_, quantity, GL_STREAM_DRAW);
+        attribute(quantity_, ShaderLibrary::quantity, 1);
+    } else { // shaders then see the attribute's constant value
+        glDisableVertexAttribArray(ShaderLibrary::quantity);
+        glVertexAttrib1f(ShaderLibrary::quantity, 0);
+    }
+    glBindVertexArray(0);
 }
 
 void ClothMesh::upload(Indices& indices) {

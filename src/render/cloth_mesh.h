@@ -24,8 +24,9 @@ public:
 
     /// Makes the points' attributes those of the next draw.
     void bind() const { glBindVertexArray(vertices_.id()); }
-    /// Draws with the program in use, as triangles with position, normal and uv (0 to 1 along columns and rows),
-    /// anticlockwise seen from the side the normals point to. Returns the number of triangles.
+    /// Draws with the program in use, as triangles with position, normal, uv (0 to 1 along columns and rows), tangent
+    /// (see cloth_tangents) and the snapshot's point quantity (0 where it has none), anticlockwise seen from the side
+    /// the normals point to. Returns the number of triangles.
     std::size_t draw_surface() const;
     /// Draws the springs of a kind as GL_LINES with position and normal. Returns their number. Bending springs that
     /// follow each other along a row or column overlap: every second one runs backwards, so that a shader which moves
@@ -45,17 +46,19 @@ private:
         GLsizei count = 0;
     };
     void make_indices();
+    void upload_quantity(std::span<const float> quantity);
     void upload(Indices& indices);
 
     int columns_ = 0, rows_ = 0;
     std::size_t not_drawable_ = 0;
     bool partial_ = false; ///< the index buffers leave points out
     std::vector<std::uint8_t> usable_;
-    std::vector<float> positions_, normals_; ///< the first only where points are left out
+    std::vector<float> positions_, normals_, tangents_; ///< the first only where points are left out
     std::vector<std::uint32_t> scratch_;
 
     VertexArray vertices_ = VertexArray::create();
     Buffer position_ = Buffer::create(), normal_ = Buffer::create(), uv_ = Buffer::create();
+    Buffer tangent_ = Buffer::create(), quantity_ = Buffer::create();
     Indices triangles_, points_;
     std::array<Indices, sim::spring_kinds> springs_;
 };

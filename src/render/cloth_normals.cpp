@@ -78,4 +78,22 @@ void cloth_normals(int columns, int rows, std::span<const float> positions, std:
     }
 }
 
+void cloth_tangents(int columns, int rows, std::span<const float> positions, std::span<const std::uint8_t> usable,
+                    std::vector<float>& tangents) {
+    tangents.resize(positions.size());
+    const auto width = static_cast<std::size_t>(columns);
+    const auto good = [&](std::size_t i) { return usable.empty() || usable[i] != 0; };
+    for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
+        for (std::size_t column = 0; column < width; ++column) {
+            const std::size_t i = row * width + column;
+            const std::size_t left = column > 0 && good(i - 1) ? i - 1 : i;
+            const std::size_t right = column + 1 < width && good(i + 1) ? i + 1 : i;
+            const bool any = good(i) && right > left;
+            const float scale = any ? static_cast<float>(width - 1) / static_cast<float>(right - left) : 0.f;
+            for (std::size_t k = 0; k < 3; ++k)
+                tangents[3 * i + k] = any ? scale * (positions[3 * right + k] - positions[3 * left + k]) : 0.f;
+        }
+    }
+}
+
 } // namespace clothlab::render

@@ -1,4 +1,4 @@
-// The normals of a cloth's points, on the CPU. Needs no GL.
+// The normals and tangents of a cloth's points, on the CPU. Needs no GL.
 #pragma once
 
 #include <cstdint>
@@ -15,5 +15,11 @@ std::size_t find_drawable(std::span<const float> positions, std::vector<std::uin
 /// nothing; a point without any area around it has (0, 1, 0). Empty usable: all are.
 void cloth_normals(int columns, int rows, std::span<const float> positions, std::span<const std::uint8_t> usable,
                    std::vector<float>& normals);
+
+/// Tangents d position / d u in m, x y z per point, u growing from 0 to 1 along the columns: central differences, one-
+/// sided at the borders and beside an unusable point. 0 where no neighbour in the row is usable. Empty usable: all are.
+/// The derivative along v, rows that is, is on the side of cross(tangent, normal).
+void cloth_tangents(int columns, int rows, std::span<const float> positions, std::span<const std::uint8_t> usable,
+                    std::vector<float>& tangents);
 
 } // namespace clothlab::render

@@ -26,14 +26,17 @@ void SphereMesh::set_lines(int latitude, int longitude) {
     latitude_ = latitude;
     longitude_ = longitude;
 
-    std::vector<float> points; // x y z u v
+    std::vector<float> points; // x y z u v, tangent
     std::vector<std::uint32_t> indices;
+    const double pole = std::sin(0.5 * std::numbers::pi / latitude);
     for (int i = 0; i <= latitude; ++i) {
         const double v = static_cast<double>(i) / latitude, polar = v * std::numbers::pi;
         for (int k = 0; k <= longitude; ++k) {
             const double u = static_cast<double>(k) / longitude, turn = 2 * u * std::numbers::pi;
+            const double ring = 2 * std::numbers::pi * std::max(std::sin(polar), pole);
             for (const double value :
-                 {std::sin(polar) * std::sin(turn), std::cos(polar), std::sin(polar) * std::cos(turn), u, v})
+                 {std::sin(polar) * std::sin(turn), std::cos(polar), std::sin(polar) * std::cos(turn), u, v,
+                  ring * std::cos(turn), 0.0, -ring * std::sin(turn)})
                 points.push_back(static_cast<float>(value));
         }
     }
@@ -50,11 +53,17 @@ void SphereMesh::set_lines(int latitude, int longitude) {
     glBindBuffer(GL_ARRAY_BUFFER, points_.id());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(float)), points.data(),
                  GL_STATIC_DRAW);
-    glEnableVertexAttribArray(ShaderLibrary::position);
-    glVertexAttribPointer(ShaderLibrary::position, 3, GL_FLOAT, GL_FALSE, 5 * sizeof(float), nullptr);
-    glEnableVertexAttribArray(ShaderLibrary::uv);
-    glVertexAttribPointer(ShaderLibrary::uv, 2, GL_FLOAT, GL_FALSE, 5 * sizeof(float),
-                          reinterpret_cast<const void*>(3 * sizeof(float)));
+    struct Part {
+        GLuint place;
+        GLint size;
+        std::size_t offset;
+    };
+    for (const auto& [place, size, offset] : {Part{ShaderLibrary::position, 3, 0}, Part{ShaderLibrary::normal, 3, 0},
+                                              Part{ShaderLibrary::uv, 2, 3}, Part{ShaderLibrary::tangent, 3, 5}}) {
+        glEnableVertexAttribArray(place);
+        glVertexAttribPointer(place, size, GL_FLOAT, GL_FALSE, 8 * sizeof(float),
+                              reinterpret_cast<const void*>(offset * sizeof(float)));
+    }
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
                  indices.data(), GL_STATIC_DRAW);

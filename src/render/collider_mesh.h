@@ -9,12 +9,14 @@
 
 namespace clothlab::render {
 
-/// The unit sphere around the origin, of rings and sectors; normals are the positions.
+/// The unit sphere around the origin, of rings and sectors. Its attributes are a cloth's: u grows to the east, v from
+/// the north pole (+y) down, tangents are d position / d u, not normalised. At a pole, where that is zero, they have
+/// the direction that it has along the vertex' own meridian, and the length that it has half a ring away.
 class SphereMesh {
 public:
     /// Rebuilt when the numbers change; numbers below 3 are raised to 3, those above 1024 lowered.
     void set_lines(int latitude, int longitude);
-    /// Draws with the program in use, as triangles with position and uv.
+    /// Draws with the program in use, as triangles with position, normal (the position), uv and tangent.
     void draw() const;
 
 private:

@@ -33,6 +33,8 @@ ProgramHandle link(const ShaderHandle& vertex, const ShaderHandle& geometry, con
     glBindAttribLocation(program.id(), ShaderLibrary::position, "position");
     glBindAttribLocation(program.id(), ShaderLibrary::normal, "normal");
     glBindAttribLocation(program.id(), ShaderLibrary::uv, "uv");
+    glBindAttribLocation(program.id(), ShaderLibrary::tangent, "tangent");
+    glBindAttribLocation(program.id(), ShaderLibrary::quantity, "quantity");
     glLinkProgram(program.id());
     for (const ShaderHandle* shader : {&vertex, &geometry, &fragment})
         if (*shader)

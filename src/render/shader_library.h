@@ -34,7 +34,7 @@ private:
 class ShaderLibrary {
 public:
     /// The vertex attributes that every mesh has in the same places.
-    enum Attribute : GLuint { position = 0, normal = 1, uv = 2 };
+    enum Attribute : GLuint { position = 0, normal = 1, uv = 2, tangent = 3, quantity = 4 };
     /// The binding point of the uniform block Frame (shaders/common/frame.glsl).
     static constexpr GLuint frame_binding = 0;
 

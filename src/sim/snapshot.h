@@ -8,6 +8,7 @@
 #include "sim/diagnostics.h"
 #include "sim/execution.h"
 #include "sim/monitor.h"
+#include "sim/point_quantities.h"
 #include "sim/stability.h"
 #include "sim/state.h"
 #include "sim/step.h"
@@ -16,8 +17,10 @@ namespace clothlab::sim {
 
 struct Snapshot {
     int columns = 0, rows = 0;
-    std::vector<float> positions; ///< x, y, z per point, row-major, in m
-    double time = 0;              ///< s
+    std::vector<float> positions;                      ///< x, y, z per point, row-major, in m
+    PointQuantity quantity_kind = PointQuantity::none; ///< what `quantity` has
+    std::vector<float> quantity;                       ///< one per point; empty where none was asked for
+    double time = 0;                                   ///< s
     std::uint64_t steps = 0;
     std::uint64_t frame = 0;                  ///< whole frames since the start
     int substep = 0;                          ///< steps taken of the frame under way
