@@ -10,27 +10,10 @@
 #include "sim/forces/gravity.h"
 #include "sim/forces/springs.h"
 #include "sim/random.h"
+#include "sim/velocity_of.h"
 
 namespace clothlab::sim {
 namespace {
-
-/// Velocities in m/s, wherever the method keeps them.
-template <class Real>
-class VelocityOf {
-public:
-    VelocityOf(const Model<Real>& model, const State<Real>& state) : state_(state), dt_(model.dt) {}
-    Vec3 operator()(std::size_t i) const {
-        const auto d = [](Real v) { return static_cast<double>(v); };
-        const Vec3Array<Real>&x = state_.position, &p = state_.previous, &v = state_.velocity;
-        if (v.size() != 0)
-            return {d(v.x[i]), d(v.y[i]), d(v.z[i])};
-        return {(d(x.x[i]) - d(p.x[i])) / dt_, (d(x.y[i]) - d(p.y[i])) / dt_, (d(x.z[i]) - d(p.z[i])) / dt_};
-    }
-
-private:
-    const State<Real>& state_;
-    double dt_;
-};
 
 std::string sentence(const char* format, auto... arguments) {
     char text[256];

@@ -110,7 +110,7 @@ public:
     StabilityMargin stability() const override { return stability_margin(model_, state_); }
 
     using Simulation::capture;
-    void capture(Snapshot& s, bool with_stability) const override {
+    void capture(Snapshot& s, const SnapshotExtras& extras) const override {
         s.columns = model_.grid->columns;
         s.rows = model_.grid->rows;
         s.positions.resize(3 * points());
@@ -119,6 +119,8 @@ public:
             s.positions[3 * i + 1] = static_cast<float>(state_.position.y[i]);
             s.positions[3 * i + 2] = static_cast<float>(state_.position.z[i]);
         }
+        s.quantity_kind = extras.quantity;
+        point_quantity(extras.quantity, model_, state_, s.positions, s.quantity);
         s.time = state_.time;
         s.steps = state_.steps;
         s.frame = frame_;
@@ -131,7 +133,7 @@ public:
             s.diagnostics.status = s.trouble->status;
             s.diagnostics.cause = s.trouble->cause;
         }
-        s.stability = with_stability ? std::optional(stability()) : std::nullopt;
+        s.stability = extras.stability ? std::optional(stability()) : std::nullopt;
         s.counts = counts_;
         s.instructions = instructions();
         s.threads = threads();

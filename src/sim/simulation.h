@@ -48,9 +48,9 @@ public:
     virtual std::uint64_t hash() const = 0;
     /// How far the present state is from the method's stability limit. Costs as much as some hundred steps.
     virtual StabilityMargin stability() const = 0;
-    /// Fills a snapshot, reusing its memory; the stability margin only if asked, for its cost.
-    virtual void capture(Snapshot& snapshot, bool with_stability) const = 0;
-    void capture(Snapshot& snapshot) const { capture(snapshot, false); }
+    /// Fills a snapshot, reusing its memory.
+    virtual void capture(Snapshot& snapshot, const SnapshotExtras& extras) const = 0;
+    void capture(Snapshot& snapshot) const { capture(snapshot, SnapshotExtras{}); }
 
     /// Looks for trouble at the end of every frame from now on. Off at the start; does not change the run.
     virtual void watch(bool on) = 0;

@@ -15,6 +15,12 @@
 
 namespace clothlab::sim {
 
+/// What a snapshot has only where it is asked for, for its cost.
+struct SnapshotExtras {
+    bool stability = false;
+    PointQuantity quantity = PointQuantity::none;
+};
+
 struct Snapshot {
     int columns = 0, rows = 0;
     std::vector<float> positions;                      ///< x, y, z per point, row-major, in m

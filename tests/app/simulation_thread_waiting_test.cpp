@@ -142,6 +142,23 @@ TEST_CASE("The stability margin is in the snapshots while it is wanted: of the s
     REQUIRE_FALSE(finished(thread).snapshot->stability);
 }
 
+TEST_CASE("The point quantity is in the snapshots while it is wanted") {
+    app::SimulationThread thread;
+    thread.start(small_cloth());
+    REQUIRE(finished(thread).snapshot->quantity.empty());
+    thread.watch_quantity(sim::PointQuantity::speed);
+    thread.step(7);
+    const auto simulation = sim::Simulation::create(small_cloth());
+    for (int i = 0; i < 7; ++i)
+        simulation->step();
+    sim::Snapshot expected;
+    simulation->capture(expected, {.quantity = sim::PointQuantity::speed});
+    REQUIRE(finished(thread).snapshot->quantity_kind == sim::PointQuantity::speed);
+    REQUIRE(finished(thread).snapshot->quantity == expected.quantity);
+    thread.watch_quantity(sim::PointQuantity::none);
+    REQUIRE(finished(thread).snapshot->quantity.empty());
+}
+
 TEST_CASE("A new start drops the steps that were still to be taken") {
     app::SimulationThread thread;
     thread.start(big_cloth());

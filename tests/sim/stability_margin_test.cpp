@@ -220,7 +220,7 @@ TEST_CASE("A snapshot has the margin when it was asked for, and only then") {
     const auto simulation = sim::Simulation::create(bare_cloth(5, 5));
     simulation->step();
     sim::Snapshot snapshot;
-    simulation->capture(snapshot, true);
+    simulation->capture(snapshot, {.stability = true});
     REQUIRE(snapshot.stability == simulation->stability());
     simulation->capture(snapshot);
     REQUIRE_FALSE(snapshot.stability);

@@ -52,6 +52,8 @@ struct SimulationThread::Worker {
     double real_time_factor = 0;
     bool pause_on_diverged = true, pause_on_jitter = false;
 
+    sim::PointQuantity quantity = sim::PointQuantity::none; ///< that snapshots have
+
     bool margin_wanted = false;
     std::optional<sim::StabilityMargin> margin; ///< the newest, of the run as it is described now
     std::uint64_t margin_steps = 0;             ///< of the state that it is of
@@ -199,7 +201,7 @@ struct SimulationThread::Worker {
         if (!simulation)
             return nullptr;
         auto s = std::make_shared<sim::Snapshot>();
-        simulation->capture(*s);
+        simulation->capture(*s, {.quantity = quantity});
         if (margin_wanted) {
             renew_margin();
             s->stability = margin;
@@ -280,6 +282,13 @@ void SimulationThread::set_speed(double speed) {
 void SimulationThread::watch_stability(bool on) {
     send([on](Worker& w) {
         w.margin_wanted = on;
+        w.dirty = true;
+    });
+}
+
+void SimulationThread::watch_quantity(sim::PointQuantity quantity) {
+    send([quantity](Worker& w) {
+        w.quantity = quantity;
         w.dirty = true;
     });
 }
