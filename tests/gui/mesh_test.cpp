@@ -44,7 +44,7 @@ TEST_CASE("A cloth shader gets the tangent d position / d u and the point quanti
     sim::Snapshot cloth = flat_cloth(5, 4);
     cloth.quantity.assign(20, 0.75f);
     render::Scene scene = scene_of(cloth);
-    scene.options.shader = "attributes";
+    scene.options.surface.shader = "attributes";
 
     const render::Image with = studio.draw(scene);
     CHECK(with.pixel(80, 45)[0] == Approx(as_srgb(0.5)).margin(1)); // the cloth is 1 m wide, u goes from 0 to 1
