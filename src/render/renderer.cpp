@@ -8,6 +8,7 @@
 #include "render/projected.h"
 #include "render/shader_library.h"
 #include "render/sorted_triangles.h"
+#include "render/texture_library.h"
 
 namespace clothlab::render {
 
@@ -34,6 +35,7 @@ void set_state() {
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glEnable(GL_DEPTH_TEST);
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); // nobody else here draws cube maps, so it stays
     glBlendEquation(GL_FUNC_ADD);
     // The picture stays opaque whatever is blended over it.
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -49,6 +51,9 @@ void reset_state() {
     glBindBuffer(GL_UNIFORM_BUFFER, 0);
 }
 
+/// The texture unit of a surface shader's first texture; those below are for what all shaders share.
+constexpr int first_surface_unit = 1;
+
 constexpr const char* always_needed[] = {"background", "sphere", "plane", "pins"};
 
 } // namespace
@@ -57,6 +62,7 @@ struct Renderer::Parts {
     explicit Parts(std::filesystem::path folder) : shaders(std::move(folder)) {}
 
     ShaderLibrary shaders;
+    TextureLibrary textures;
     ClothMesh cloth;
     SortedTriangles sorted;
     SphereMesh sphere;
@@ -110,6 +116,7 @@ void Renderer::Parts::draw_background(const Options& options) {
 /// Takes a program of a surface into use, with its own parameters and what every surface is told.
 void Renderer::Parts::use(const Program& program, const Options& options, const std::vector<Uniform>& uniforms) {
     program.use();
+    int unit = first_surface_unit;
     for (const Uniform& uniform : uniforms) {
         const char* name = uniform.name.c_str();
         if (const auto* number = std::get_if<float>(&uniform.value))
@@ -120,7 +127,14 @@ void Renderer::Parts::use(const Program& program, const Options& options, const 
             program.set(name, *flag ? 1 : 0);
         else if (const auto* vector = std::get_if<glm::vec3>(&uniform.value))
             program.set(name, *vector);
+        else if (const auto* texture = std::get_if<TextureName>(&uniform.value)) {
+            const TextureEntry& entry = textures.get(texture->name, texture->usage);
+            glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+            glBindTexture(entry.target, entry.id());
+            program.set(name, unit++);
+        }
     }
+    glActiveTexture(GL_TEXTURE0);
     program.set("object", glm::vec4(0, 0, 0, 1));
     program.set("depth", 1.f);
     program.set("swap_sides", options.swap_sides ? 1 : 0);
@@ -258,6 +272,14 @@ Renderer::Renderer(std::filesystem::path shader_folder) {
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+std::vector<std::string> Renderer::texture_errors() const {
+    return parts_->textures.errors();
+}
+
+bool Renderer::refresh_textures() {
+    return parts_->textures.refresh();
+}
 
 const std::filesystem::path& Renderer::shader_folder() const {
     return parts_->shaders.folder();

@@ -68,6 +68,11 @@ public:
     void reload_shaders();
     const std::filesystem::path& shader_folder() const;
 
+    /// What is wrong with the textures that were drawn, as far as anything is: each shows as a checker or the like.
+    std::vector<std::string> texture_errors() const;
+    /// Reads texture files that have changed; true when there were any. For every half a second, not for every frame.
+    bool refresh_textures();
+
 private:
     struct Parts;
     std::unique_ptr<Parts> parts_;

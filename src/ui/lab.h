@@ -101,6 +101,8 @@ struct Lab {
     std::uint64_t viewport_texture = 0;          ///< shown by the viewport panel, bottom row first
     int viewport_width = 0, viewport_height = 0; ///< px that the viewport panel wants
     std::array<std::array<float, 3>, sim::spring_kinds> spring_colours{};
+    std::vector<std::array<float, 3>> legend_colours; ///< of the heat map in use, from low to high; sRGB
+    bool show_lamps = false;                          ///< as handles in the viewport
 
     /// A parameter that restarts the run takes effect when its slider is let go: until then the value waits here.
     struct Pending {

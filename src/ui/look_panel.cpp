@@ -103,10 +103,13 @@ void draw_look(Lab& lab) {
     const bool lines = shader && shader->lines;
     if (ImGui::CollapsingHeader("Springs drawn", ImGuiTreeNodeFlags_DefaultOpen))
         springs(lab, lines);
-    if (ImGui::CollapsingHeader("Light"))
+    if (ImGui::CollapsingHeader("Light")) {
+        ImGui::Checkbox("Show the lamps in the viewport", &lab.show_lamps);
+        tooltip("As handles that can be dragged.");
         rows(lab, "light",
              {"look.shadow", "look.lamp_intensity", "look.lamp_position", "look.second_lamp_intensity",
               "look.second_lamp_position", "look.ambient", "look.fill"});
+    }
     if (ImGui::CollapsingHeader("Also drawn", ImGuiTreeNodeFlags_DefaultOpen)) {
         ImGui::Checkbox("Pins", &look.show_pins);
         ImGui::SameLine();

@@ -5,8 +5,10 @@
 #include <imgui.h>
 
 #include "ui/icons.h"
+#include "ui/legend.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
+#include "ui/viewport_handles.h"
 #include "ui/widgets.h"
 
 namespace clothlab::ui {
@@ -38,27 +40,6 @@ void move_camera(Lab& lab, float shorter_side) {
         lab.scene.camera = camera;
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
-}
-
-/// Names the colours of the springs while these are drawn.
-void draw_legend(const Lab& lab, ImVec2 corner) {
-    const scene::Look& look = lab.scene.look;
-    if (look.shader != "wireframe" && !look.springs_over_surface)
-        return;
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    const float line = ImGui::GetTextLineHeight();
-    const std::pair<const char*, bool> rows[] = {
-        {"structural", look.show_structural}, {"shear", look.show_shearing}, {"bending", look.show_bending}};
-    ImVec2 at{corner.x + line, corner.y + line};
-    for (std::size_t i = 0; i < std::size(rows); ++i) {
-        if (!rows[i].second)
-            continue;
-        const auto& c = lab.spring_colours[i];
-        const ImU32 colour = ImGui::GetColorU32(ImVec4(c[0], c[1], c[2], 1));
-        list->AddLine({at.x, at.y + line / 2}, {at.x + 1.6f * line, at.y + line / 2}, colour, line / 7);
-        list->AddText({at.x + 2.1f * line, at.y}, ImGui::GetColorU32(ImGuiCol_Text), rows[i].first);
-        at.y += 1.25f * line;
-    }
 }
 
 /// What went wrong, over the picture until it is dismissed; the newest three.
@@ -117,6 +98,7 @@ void draw_viewport(Lab& lab) {
                                ImGuiButtonFlags_MouseButtonMiddle);
     ImGui::SetItemKeyOwner(ImGuiKey_MouseWheelY);
     move_camera(lab, std::min(at_least_one.x, at_least_one.y));
+    draw_viewport_handles(lab, corner, at_least_one);
     draw_legend(lab, corner);
     draw_messages(lab, corner, size.x);
 }
