@@ -18,25 +18,24 @@ void fill(const Buffer& buffer, std::span<const T> data, GLenum usage) {
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size_bytes()), data.data(), usage);
 }
 
-void attribute(const Buffer& buffer, GLuint place, GLint size) {
-    glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+/// Of the buffer and the vertex array that are bound: an attribute that begins after so many floats.
+void attribute(GLuint place, GLint size, std::size_t begin) {
     glEnableVertexAttribArray(place);
-    glVertexAttribPointer(place, size, GL_FLOAT, GL_FALSE, 0, nullptr);
+    glVertexAttribPointer(place, size, GL_FLOAT, GL_FALSE, 0, reinterpret_cast<const void*>(begin * sizeof(float)));
 }
 
 } // namespace
 
 ClothMesh::ClothMesh() {
     glBindVertexArray(vertices_.id());
-    attribute(position_, ShaderLibrary::position, 3);
-    attribute(normal_, ShaderLibrary::normal, 3);
-    attribute(uv_, ShaderLibrary::uv, 2);
-    attribute(tangent_, ShaderLibrary::tangent, 3);
+    glBindBuffer(GL_ARRAY_BUFFER, uv_.id());
+    attribute(ShaderLibrary::uv, 2, 0);
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
 void ClothMesh::clear() {
+    capture_ = 0;
     columns_ = rows_ = 0;
     not_drawable_ = 0;
     usable_.clear();
@@ -46,60 +45,71 @@ void ClothMesh::clear() {
 }
 
 void ClothMesh::update(const sim::Snapshot& snapshot) {
-    const std::span<const float> positions = snapshot.positions;
-    const bool whole =
-        snapshot.columns > 0 && snapshot.rows > 0 &&
-        positions.size() == 3 * static_cast<std::size_t>(snapshot.columns) * static_cast<std::size_t>(snapshot.rows);
+    if (snapshot.capture != 0 && snapshot.capture == capture_)
+        return;
+    const bool whole = snapshot.columns > 0 && snapshot.rows > 0 &&
+                       snapshot.positions.size() ==
+                           3 * static_cast<std::size_t>(snapshot.columns) * static_cast<std::size_t>(snapshot.rows);
     if (!whole)
         return clear();
 
+    capture_ = snapshot.capture;
     const bool new_grid = snapshot.columns != columns_ || snapshot.rows != rows_;
     columns_ = snapshot.columns;
     rows_ = snapshot.rows;
-    not_drawable_ = find_drawable(positions, usable_);
-    if (new_grid) {
-        std::vector<float> uv;
-        uv.reserve(2 * usable_.size());
-        for (int row = 0; row < rows_; ++row) {
-            for (int column = 0; column < columns_; ++column) {
-                uv.push_back(static_cast<float>(column) / static_cast<float>(std::max(1, columns_ - 1)));
-                uv.push_back(static_cast<float>(row) / static_cast<float>(std::max(1, rows_ - 1)));
-            }
-        }
-        fill<float>(uv_, uv, GL_STATIC_DRAW);
-    }
+    not_drawable_ = find_drawable(snapshot.positions, usable_);
+    if (new_grid)
+        make_uv();
     if (new_grid || partial_ || not_drawable_ > 0)
         make_indices();
+    make_vertices(snapshot);
+}
 
-    if (not_drawable_ == 0) {
-        cloth_normals(columns_, rows_, positions, {}, normals_);
-        cloth_tangents(columns_, rows_, positions, {}, tangents_);
-        fill(position_, positions, GL_STREAM_DRAW);
-    } else {
-        cloth_normals(columns_, rows_, positions, usable_, normals_);
-        cloth_tangents(columns_, rows_, positions, usable_, tangents_);
-        positions_.assign(positions.begin(), positions.end());
-        for (std::size_t i = 0; i < usable_.size(); ++i)
-            if (usable_[i] == 0)
-                std::fill_n(positions_.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, 0.f);
-        fill<float>(position_, positions_, GL_STREAM_DRAW);
+void ClothMesh::make_uv() {
+    std::vector<float> uv;
+    uv.reserve(2 * usable_.size());
+    for (int row = 0; row < rows_; ++row) {
+        for (int column = 0; column < columns_; ++column) {
+            uv.push_back(static_cast<float>(column) / static_cast<float>(std::max(1, columns_ - 1)));
+            uv.push_back(static_cast<float>(row) / static_cast<float>(std::max(1, rows_ - 1)));
+        }
     }
-    fill<float>(normal_, normals_, GL_STREAM_DRAW);
-    fill<float>(tangent_, tangents_, GL_STREAM_DRAW);
-    upload_quantity(snapshot.quantity);
+    fill<float>(uv_, uv, GL_STATIC_DRAW);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
-void ClothMesh::upload_quantity(std::span<const float> quantity) {
+void ClothMesh::make_vertices(const sim::Snapshot& snapshot) {
+    const std::span<const float> positions = snapshot.positions;
+    const std::size_t points = usable_.size(), vectors = positions.size();
+    const bool with_quantity = snapshot.quantity.size() == points;
+    data_.resize(3 * vectors + (with_quantity ? points : 0));
+    const std::span<float> data = data_;
+    std::copy(positions.begin(), positions.end(), data.begin());
+    std::span<const std::uint8_t> usable; // all
+    if (not_drawable_ > 0) {
+        usable = usable_;
+        for (std::size_t i = 0; i < points; ++i)
+            if (usable_[i] == 0)
+                std::fill_n(data.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, 0.f);
+    }
+    cloth_normals(columns_, rows_, positions, usable, data.subspan(vectors, vectors));
+    cloth_tangents(columns_, rows_, positions, usable, data.subspan(2 * vectors, vectors));
+    if (with_quantity)
+        std::copy(snapshot.quantity.begin(), snapshot.quantity.end(), data.subspan(3 * vectors).begin());
+
+    fill<float>(vertex_data_, data_, GL_STREAM_DRAW);
     glBindVertexArray(vertices_.id());
-    if (quantity.size() == usable_.size()) {
-        fill(quantity_, quantity, GL_STREAM_DRAW);
-        attribute(quantity_, ShaderLibrary::quantity, 1);
+    attribute(ShaderLibrary::position, 3, 0);
+    attribute(ShaderLibrary::normal, 3, vectors);
+    attribute(ShaderLibrary::tangent, 3, 2 * vectors);
+    if (with_quantity) {
+        attribute(ShaderLibrary::quantity, 1, 3 * vectors);
     } else { // shaders then see the attribute's constant value
         glDisableVertexAttribArray(ShaderLibrary::quantity);
         glVertexAttrib1f(ShaderLibrary::quantity, 0);
     }
     glBindVertexArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
 void ClothMesh::upload(Indices& indices) {

@@ -17,7 +17,8 @@ class ClothMesh {
 public:
     ClothMesh();
 
-    /// Takes over a snapshot's positions. One whose positions do not fill its grid is taken as no cloth.
+    /// Takes over a snapshot's positions and quantity; nothing is done for the capture that it has already
+    /// (Snapshot::capture). A snapshot whose positions do not fill its grid is taken as no cloth.
     void update(const sim::Snapshot& snapshot);
     /// No cloth: nothing is drawn.
     void clear();
@@ -46,19 +47,21 @@ private:
         GLsizei count = 0;
     };
     void make_indices();
-    void upload_quantity(std::span<const float> quantity);
+    void make_uv();
+    void make_vertices(const sim::Snapshot& snapshot);
     void upload(Indices& indices);
 
+    std::uint64_t capture_ = 0; ///< that the mesh has; 0: one that has no number
     int columns_ = 0, rows_ = 0;
     std::size_t not_drawable_ = 0;
     bool partial_ = false; ///< the index buffers leave points out
     std::vector<std::uint8_t> usable_;
-    std::vector<float> positions_, normals_, tangents_; ///< the first only where points are left out
+    std::vector<float> data_; ///< what goes into vertex_data_
     std::vector<std::uint32_t> scratch_;
 
     VertexArray vertices_ = VertexArray::create();
-    Buffer position_ = Buffer::create(), normal_ = Buffer::create(), uv_ = Buffer::create();
-    Buffer tangent_ = Buffer::create(), quantity_ = Buffer::create();
+    Buffer uv_ = Buffer::create();
+    Buffer vertex_data_ = Buffer::create(); ///< all positions, then all normals, tangents and, if any, quantities
     Indices triangles_, points_;
     std::array<Indices, sim::spring_kinds> springs_;
 };

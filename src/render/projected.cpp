@@ -1,15 +1,93 @@
 #include "render/projected.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace clothlab::render {
 
 namespace {
 
 struct Pixel {
-    float x = 0, y = 0, depth = 0;
-    bool inside = false;
+    float x, y;  ///< px
+    float depth; ///< m, from the eye's plane
+    bool inside; ///< else the other values mean nothing
+};
+
+struct Camera {
+    glm::mat4 to_clip;
+    glm::vec4 depth; ///< dot with (x, y, z, 1)
+    float width, height;
+
+    Camera(const View& view, int w, int h) : width(static_cast<float>(w)), height(static_cast<float>(h)) {
+        const glm::mat4 to_camera = view_matrix(view);
+        to_clip = projection_matrix(view, width / height) * to_camera;
+        depth = -glm::vec4(to_camera[0][2], to_camera[1][2], to_camera[2][2], to_camera[3][2]);
+    }
+    // No branches: loops over it are vectorised.
+    Pixel pixel(float x, float y, float z) const {
+        const auto& m = to_clip;
+        const float clip_x = m[0][0] * x + m[1][0] * y + m[2][0] * z + m[3][0];
+        const float clip_y = m[0][1] * x + m[1][1] * y + m[2][1] * z + m[3][1];
+        const float clip_z = m[0][2] * x + m[1][2] * y + m[2][2] * z + m[3][2];
+        const float clip_w = m[0][3] * x + m[1][3] * y + m[2][3] * z + m[3][3];
+        const bool inside =
+            (std::abs(clip_x) <= clip_w) & (std::abs(clip_y) <= clip_w) & (std::abs(clip_z) <= clip_w) & (clip_w > 0);
+        const float half = 0.5f / clip_w;
+        return {(0.5f + half * clip_x) * width, (0.5f - half * clip_y) * height,
+                depth.x * x + depth.y * y + depth.z * z + depth.w, inside};
+    }
+};
+
+/// The box around the points inside, in so many parts at a time that the loop can be one of vectors.
+class Extent {
+public:
+    Extent(const Camera& camera, std::span<const float> positions, std::span<const std::uint8_t> drawn) {
+        left.fill(beyond);
+        top.fill(beyond);
+        nearest.fill(beyond);
+        right.fill(-beyond);
+        bottom.fill(-beyond);
+        furthest.fill(-beyond);
+        const auto include = [&](std::size_t i, std::size_t lane) {
+            const Pixel p = camera.pixel(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
+            const bool counts = p.inside & (drawn[i] != 0);
+            const float x = counts ? p.x : beyond, y = counts ? p.y : beyond, depth = counts ? p.depth : beyond;
+            left[lane] = x < left[lane] ? x : left[lane];
+            top[lane] = y < top[lane] ? y : top[lane];
+            nearest[lane] = depth < nearest[lane] ? depth : nearest[lane];
+            const float x2 = counts ? p.x : -beyond, y2 = counts ? p.y : -beyond, depth2 = counts ? p.depth : -beyond;
+            right[lane] = x2 > right[lane] ? x2 : right[lane];
+            bottom[lane] = y2 > bottom[lane] ? y2 : bottom[lane];
+            furthest[lane] = depth2 > furthest[lane] ? depth2 : furthest[lane];
+            inside[lane] += counts ? 1u : 0u;
+        };
+        std::size_t i = 0;
+        for (; i + lanes <= drawn.size(); i += lanes)
+            for (std::size_t lane = 0; lane < lanes; ++lane)
+                include(i + lane, lane);
+        for (; i < drawn.size(); ++i)
+            include(i, 0);
+    }
+    void fill(ProjectedCloth& result, int width, int height) const {
+        result.inside = std::accumulate(inside.begin(), inside.end(), std::size_t{0});
+        if (result.inside == 0)
+            return;
+        const auto index = [](float value, int size) { return std::clamp(static_cast<int>(value), 0, size - 1); };
+        result.min_x = index(*std::min_element(left.begin(), left.end()), width);
+        result.max_x = index(*std::max_element(right.begin(), right.end()), width);
+        result.min_y = index(*std::min_element(top.begin(), top.end()), height);
+        result.max_y = index(*std::max_element(bottom.begin(), bottom.end()), height);
+        result.nearest = *std::min_element(nearest.begin(), nearest.end());
+        result.furthest = *std::max_element(furthest.begin(), furthest.end());
+    }
+
+private:
+    static constexpr std::size_t lanes = 8;
+    static constexpr float beyond = 1e30f;
+    std::array<float, lanes> left, top, right, bottom, nearest, furthest;
+    std::array<std::uint32_t, lanes> inside{};
 };
 
 } // namespace
@@ -19,45 +97,17 @@ ProjectedCloth project(const sim::Snapshot* snapshot, std::span<const std::uint8
     ProjectedCloth result;
     if (snapshot == nullptr || 3 * drawn.size() != snapshot->positions.size())
         return result;
-    const float w = static_cast<float>(width), h = static_cast<float>(height);
-    const glm::mat4 m = projection_matrix(view, w / h) * view_matrix(view);
+    const Camera camera(view, width, height);
+    Extent(camera, snapshot->positions, drawn).fill(result, width, height);
+    if (result.inside == 0)
+        return result;
+
     const auto pixel = [&](std::size_t i) {
-        Pixel p;
-        if (drawn[i] == 0)
-            return p;
         const float* at = &snapshot->positions[3 * i];
-        const glm::vec4 clip = m[0] * at[0] + m[1] * at[1] + m[2] * at[2] + m[3];
-        p.inside = std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w && std::abs(clip.z) <= clip.w && clip.w > 0;
-        if (!p.inside)
-            return p;
-        p.x = (0.5f + 0.5f * clip.x / clip.w) * w;
-        p.y = (0.5f - 0.5f * clip.y / clip.w) * h;
-        p.depth = clip.w;
+        Pixel p = camera.pixel(at[0], at[1], at[2]);
+        p.inside = p.inside && drawn[i] != 0;
         return p;
     };
-
-    float left = w, top = h, right = -1, bottom = -1;
-    result.nearest = 1e30f;
-    for (std::size_t i = 0; i < drawn.size(); ++i) {
-        const Pixel p = pixel(i);
-        if (!p.inside)
-            continue;
-        ++result.inside;
-        left = std::min(left, p.x);
-        right = std::max(right, p.x);
-        top = std::min(top, p.y);
-        bottom = std::max(bottom, p.y);
-        result.nearest = std::min(result.nearest, p.depth);
-        result.furthest = std::max(result.furthest, p.depth);
-    }
-    if (result.inside == 0)
-        return {};
-    const auto index = [](float value, int size) { return std::clamp(static_cast<int>(value), 0, size - 1); };
-    result.min_x = index(left, width);
-    result.max_x = index(right, width);
-    result.min_y = index(top, height);
-    result.max_y = index(bottom, height);
-
     // Some hundred cells are enough for a mean.
     const auto columns = static_cast<std::size_t>(snapshot->columns), points = drawn.size();
     double sum = 0;

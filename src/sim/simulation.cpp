@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -43,6 +44,9 @@ void append(std::vector<std::byte>& bytes, const T* values, std::size_t count) {
     bytes.resize(end + count * sizeof(T));
     std::memcpy(bytes.data() + end, values, count * sizeof(T));
 }
+
+/// Of all runs, in whatever thread.
+std::atomic<std::uint64_t> captures = 0;
 
 template <class Real>
 class SimulationOf final : public Simulation {
@@ -111,6 +115,7 @@ public:
 
     using Simulation::capture;
     void capture(Snapshot& s, const SnapshotExtras& extras) const override {
+        s.capture = ++captures;
         s.columns = model_.grid->columns;
         s.rows = model_.grid->rows;
         s.positions.resize(3 * points());

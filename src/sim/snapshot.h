@@ -22,6 +22,7 @@ struct SnapshotExtras {
 };
 
 struct Snapshot {
+    std::uint64_t capture = 0; ///< another number for every capture; 0 in a snapshot that was made by hand
     int columns = 0, rows = 0;
     std::vector<float> positions;                      ///< x, y, z per point, row-major, in m
     PointQuantity quantity_kind = PointQuantity::none; ///< what `quantity` has

@@ -90,7 +90,7 @@ TEST_CASE("Tangents are the derivative along the columns", "[mesh]") {
         cloth.positions[i] = u * u;
         cloth.positions[i + 1] = 3 * u;
     }
-    std::vector<float> tangents;
+    std::vector<float> tangents(cloth.positions.size());
     render::cloth_tangents(columns, rows, cloth.positions, {}, tangents);
     for (std::size_t i = 0; i < tangents.size() / 3; ++i) {
         const auto column = static_cast<double>(i % columns);
@@ -107,7 +107,7 @@ TEST_CASE("Tangents beside a point that cannot be drawn are one-sided, and 0 whe
     cloth.positions[3 * 1] = std::numeric_limits<float>::infinity();
     std::vector<std::uint8_t> usable;
     REQUIRE(render::find_drawable(cloth.positions, usable) == 1);
-    std::vector<float> tangents;
+    std::vector<float> tangents(cloth.positions.size());
     render::cloth_tangents(4, 2, cloth.positions, usable, tangents);
     CHECK(tangents[0] == 0);                 // its only neighbour is missing
     CHECK(tangents[3 * 1] == 0);             // it is missing itself

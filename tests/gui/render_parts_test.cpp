@@ -73,7 +73,7 @@ TEST_CASE("The difference of pictures is 0 for the same, 1 for black and white, 
 
 TEST_CASE("Normals point up for a flat cloth and are safe where there is none", "[normals]") {
     sim::Snapshot cloth = flat_cloth(4, 3);
-    std::vector<float> normals;
+    std::vector<float> normals(cloth.positions.size());
     render::cloth_normals(4, 3, cloth.positions, {}, normals);
     for (std::size_t i = 0; i < normals.size(); i += 3)
         CHECK(normals[i + 1] == Approx(1));
@@ -99,7 +99,7 @@ TEST_CASE("Normals of a cylinder are its radii", "[normals]") {
         cloth.positions[i] = std::sin(angle);
         cloth.positions[i + 1] = std::cos(angle);
     }
-    std::vector<float> normals;
+    std::vector<float> normals(cloth.positions.size());
     render::cloth_normals(60, 4, cloth.positions, {}, normals);
     for (std::size_t point = 0; point < 240; ++point) {
         if (point % 60 == 0 || point % 60 == 59)
