@@ -105,17 +105,21 @@ void normals_of_usable(int columns, int rows, std::span<const float> positions, 
 
 std::size_t find_drawable(std::span<const float> positions, std::vector<std::uint8_t>& usable) {
     const std::size_t points = positions.size() / 3;
-    usable.resize(points);
-    std::size_t good = 0;
+    const auto bad = [](float value) { return !(std::abs(value) <= drawable_range); }; // as NaN is
+    std::uint32_t bad_values = 0;
+    for (const float value : positions)
+        bad_values += bad(value) ? 1u : 0u;
+    usable.assign(points, 1);
+    if (bad_values == 0)
+        return 0;
+    std::size_t bad_points = 0;
     for (std::size_t i = 0; i < points; ++i) {
-        // No branches: this loop is vectorised. Comparisons with NaN are false.
-        const bool x = std::abs(positions[3 * i]) <= drawable_range;
-        const bool y = std::abs(positions[3 * i + 1]) <= drawable_range;
-        const bool z = std::abs(positions[3 * i + 2]) <= drawable_range;
-        usable[i] = static_cast<std::uint8_t>(x & y & z);
-        good += usable[i];
+        if (bad(positions[3 * i]) || bad(positions[3 * i + 1]) || bad(positions[3 * i + 2])) {
+            usable[i] = 0;
+            ++bad_points;
+        }
     }
-    return points - good;
+    return bad_points;
 }
 
 void cloth_normals(int columns, int rows, std::span<const float> positions, std::span<const std::uint8_t> usable,

@@ -40,7 +40,8 @@ struct Camera {
     }
 };
 
-/// The box around the points inside, in so many parts at a time that the loop can be one of vectors.
+/// The box around the points inside. It is made of a few parts that are put together at the end, as many as points
+/// are looked at a time: the compiler then makes vectors of them.
 class Extent {
 public:
     Extent(const Camera& camera, std::span<const float> positions, std::span<const std::uint8_t> drawn) {
@@ -50,25 +51,20 @@ public:
         right.fill(-beyond);
         bottom.fill(-beyond);
         furthest.fill(-beyond);
-        const auto include = [&](std::size_t i, std::size_t lane) {
-            const Pixel p = camera.pixel(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
-            const bool counts = p.inside & (drawn[i] != 0);
-            const float x = counts ? p.x : beyond, y = counts ? p.y : beyond, depth = counts ? p.depth : beyond;
-            left[lane] = x < left[lane] ? x : left[lane];
-            top[lane] = y < top[lane] ? y : top[lane];
-            nearest[lane] = depth < nearest[lane] ? depth : nearest[lane];
-            const float x2 = counts ? p.x : -beyond, y2 = counts ? p.y : -beyond, depth2 = counts ? p.depth : -beyond;
-            right[lane] = x2 > right[lane] ? x2 : right[lane];
-            bottom[lane] = y2 > bottom[lane] ? y2 : bottom[lane];
-            furthest[lane] = depth2 > furthest[lane] ? depth2 : furthest[lane];
-            inside[lane] += counts ? 1u : 0u;
-        };
-        std::size_t i = 0;
-        for (; i + lanes <= drawn.size(); i += lanes)
+        for (std::size_t first = 0; first < drawn.size(); first += lanes) {
+            const std::size_t count = std::min(lanes, drawn.size() - first);
+            const float* at = &positions[3 * first];
+            std::array<float, lanes> x{}, y{}, z{};
+            std::array<std::uint32_t, lanes> counts{};
+            for (std::size_t lane = 0; lane < count; ++lane) {
+                x[lane] = at[3 * lane];
+                y[lane] = at[3 * lane + 1];
+                z[lane] = at[3 * lane + 2];
+                counts[lane] = drawn[first + lane];
+            }
             for (std::size_t lane = 0; lane < lanes; ++lane)
-                include(i + lane, lane);
-        for (; i < drawn.size(); ++i)
-            include(i, 0);
+                include(camera.pixel(x[lane], y[lane], z[lane]), counts[lane], lane);
+        }
     }
     void fill(ProjectedCloth& result, int width, int height) const {
         result.inside = std::accumulate(inside.begin(), inside.end(), std::size_t{0});
@@ -84,7 +80,20 @@ public:
     }
 
 private:
-    static constexpr std::size_t lanes = 8;
+    void include(const Pixel& p, std::uint32_t drawn, std::size_t lane) {
+        const bool counts = p.inside & (drawn != 0);
+        const float x = counts ? p.x : beyond, y = counts ? p.y : beyond, depth = counts ? p.depth : beyond;
+        left[lane] = x < left[lane] ? x : left[lane];
+        top[lane] = y < top[lane] ? y : top[lane];
+        nearest[lane] = depth < nearest[lane] ? depth : nearest[lane];
+        const float x2 = counts ? p.x : -beyond, y2 = counts ? p.y : -beyond, depth2 = counts ? p.depth : -beyond;
+        right[lane] = x2 > right[lane] ? x2 : right[lane];
+        bottom[lane] = y2 > bottom[lane] ? y2 : bottom[lane];
+        furthest[lane] = depth2 > furthest[lane] ? depth2 : furthest[lane];
+        inside[lane] += counts ? 1u : 0u;
+    }
+
+    static constexpr std::size_t lanes = 16;
     static constexpr float beyond = 1e30f;
     std::array<float, lanes> left, top, right, bottom, nearest, furthest;
     std::array<std::uint32_t, lanes> inside{};
