@@ -6,7 +6,7 @@
 using namespace clothlab;
 using namespace clothlab::test;
 
-TEST_CASE("Before a scene is given there is nothing to show, and commands do no harm") {
+TEST_CASE("Before a scene is given there is nothing to show, and commands do no harm", "[threads]") {
     app::SimulationThread thread;
     thread.play(true);
     thread.step(3);
@@ -18,7 +18,7 @@ TEST_CASE("Before a scene is given there is nothing to show, and commands do no 
     REQUIRE(published.error.empty());
 }
 
-TEST_CASE("A started scene is shown at time 0, paused") {
+TEST_CASE("A started scene is shown at time 0, paused", "[threads]") {
     app::SimulationThread thread;
     thread.start(small_cloth());
     const app::Published published = finished(thread);
@@ -28,7 +28,8 @@ TEST_CASE("A started scene is shown at time 0, paused") {
     REQUIRE(shows(published, *sim::Simulation::create(small_cloth())));
 }
 
-TEST_CASE("Steps and frames are taken to the last one, with the positions of a simulation without a thread") {
+TEST_CASE("Steps and frames are taken to the last one, with the positions of a simulation without a thread",
+          "[threads]") {
     for (const sim::Precision precision : {sim::Precision::single_precision, sim::Precision::double_precision}) {
         sim::Description description = small_cloth();
         description.stepping.precision = precision;
@@ -55,7 +56,8 @@ TEST_CASE("Steps and frames are taken to the last one, with the positions of a s
     }
 }
 
-TEST_CASE("Frames and steps are taken in the order in which they were asked for, however late they are taken") {
+TEST_CASE("Frames and steps are taken in the order in which they were asked for, however late they are taken",
+          "[threads]") {
     const auto simulation = sim::Simulation::create(small_cloth());
     app::SimulationThread thread;
     thread.start(small_cloth());
@@ -70,7 +72,7 @@ TEST_CASE("Frames and steps are taken in the order in which they were asked for,
     REQUIRE(shows(finished(thread), *simulation));
 }
 
-TEST_CASE("No steps, or fewer than none, are no steps") {
+TEST_CASE("No steps, or fewer than none, are no steps", "[threads]") {
     app::SimulationThread thread;
     thread.start(small_cloth());
     thread.step(0);
@@ -82,7 +84,7 @@ TEST_CASE("No steps, or fewer than none, are no steps") {
     REQUIRE(finished(thread).snapshot->steps == 2);
 }
 
-TEST_CASE("Playing goes on until it is paused, and stepping pauses it") {
+TEST_CASE("Playing goes on until it is paused, and stepping pauses it", "[threads]") {
     app::SimulationThread thread;
     thread.start(small_cloth());
     thread.play(true);
@@ -106,7 +108,7 @@ TEST_CASE("Playing goes on until it is paused, and stepping pauses it") {
     REQUIRE(shows(stepped, *simulation)); // however it was paced, these are the same steps
 }
 
-TEST_CASE("A live change keeps time and steps and acts from the next step on") {
+TEST_CASE("A live change keeps time and steps and acts from the next step on", "[threads]") {
     sim::Description description = small_cloth();
     const auto simulation = sim::Simulation::create(description);
     app::SimulationThread thread;
@@ -129,7 +131,7 @@ TEST_CASE("A live change keeps time and steps and acts from the next step on") {
     REQUIRE(shows(published, *simulation));
 }
 
-TEST_CASE("A change of the grid starts anew, paused or playing as before") {
+TEST_CASE("A change of the grid starts anew, paused or playing as before", "[threads]") {
     sim::Description description = small_cloth();
     app::SimulationThread thread;
     thread.start(description);
@@ -148,7 +150,7 @@ TEST_CASE("A change of the grid starts anew, paused or playing as before") {
     REQUIRE(published.snapshot->columns == 10);
 }
 
-TEST_CASE("A description without meaning is refused with a reason, and the run goes on") {
+TEST_CASE("A description without meaning is refused with a reason, and the run goes on", "[threads]") {
     const sim::Description good = small_cloth();
     const auto simulation = sim::Simulation::create(good);
     app::SimulationThread thread;
@@ -181,7 +183,7 @@ TEST_CASE("A description without meaning is refused with a reason, and the run g
     REQUIRE(finished(thread).error.empty());
 }
 
-TEST_CASE("A first description without meaning is refused, and the next one is taken") {
+TEST_CASE("A first description without meaning is refused, and the next one is taken", "[threads]") {
     app::SimulationThread thread;
     sim::Description bad = small_cloth();
     bad.cloth.density = 0;

@@ -37,7 +37,7 @@ long count_calls(app::SimulationThread& thread, Enough enough) {
 
 } // namespace
 
-TEST_CASE("The newest snapshot can be had, and commands be given, as often during steps as between them") {
+TEST_CASE("The newest snapshot can be had, and commands be given, as often during steps as between them", "[threads]") {
     using Clock = std::chrono::steady_clock;
     app::SimulationThread thread;
     thread.start(slow_cloth());
@@ -60,7 +60,7 @@ TEST_CASE("The newest snapshot can be had, and commands be given, as often durin
     REQUIRE(playing > paused / 4);
 }
 
-TEST_CASE("Slow motion waits for the next frame, and shows the one it has meanwhile") {
+TEST_CASE("Slow motion waits for the next frame, and shows the one it has meanwhile", "[threads]") {
     app::SimulationThread thread;
     thread.start(small_cloth());
     thread.set_speed(1e-6); // the next frame is due in three hours
@@ -72,7 +72,7 @@ TEST_CASE("Slow motion waits for the next frame, and shows the one it has meanwh
     wait_for(thread, [](const app::Published& p) { return p.snapshot->frame > 20; });
 }
 
-TEST_CASE("A blow-up pauses, with its cause to be seen, and a new start plays again") {
+TEST_CASE("A blow-up pauses, with its cause to be seen, and a new start plays again", "[threads]") {
     sim::Description description = small_cloth();
     description.cloth.ks = 1e9;
     description.rules.limit = sim::LimitRule::off;
@@ -90,7 +90,8 @@ TEST_CASE("A blow-up pauses, with its cause to be seen, and a new start plays ag
     wait_for(thread, [](const app::Published& p) { return p.run == 2 && p.snapshot->steps > 0; });
 }
 
-TEST_CASE("A jitter pauses once where that is wanted, and not where it is not, nor need a divergence pause") {
+TEST_CASE("A jitter pauses once where that is wanted, and not where it is not, nor need a divergence pause",
+          "[threads]") {
     sim::Description stiff = small_cloth();
     stiff.cloth.ks = 1.03 * sim::Simulation::create(stiff)->stability().ks_max; // the stretch limit holds that back
     app::SimulationThread thread;
@@ -119,7 +120,7 @@ TEST_CASE("A jitter pauses once where that is wanted, and not where it is not, n
     REQUIRE(finished(thread).snapshot->frame == 6);
 }
 
-TEST_CASE("The stability margin is in the snapshots while it is wanted: of the state itself when paused") {
+TEST_CASE("The stability margin is in the snapshots while it is wanted: of the state itself when paused", "[threads]") {
     app::SimulationThread thread;
     thread.start(small_cloth());
     REQUIRE_FALSE(finished(thread).snapshot->stability);
@@ -142,7 +143,7 @@ TEST_CASE("The stability margin is in the snapshots while it is wanted: of the s
     REQUIRE_FALSE(finished(thread).snapshot->stability);
 }
 
-TEST_CASE("The point quantity is in the snapshots while it is wanted") {
+TEST_CASE("The point quantity is in the snapshots while it is wanted", "[threads]") {
     app::SimulationThread thread;
     thread.start(small_cloth());
     REQUIRE(finished(thread).snapshot->quantity.empty());
@@ -159,7 +160,7 @@ TEST_CASE("The point quantity is in the snapshots while it is wanted") {
     REQUIRE(finished(thread).snapshot->quantity.empty());
 }
 
-TEST_CASE("A new start drops the steps that were still to be taken") {
+TEST_CASE("A new start drops the steps that were still to be taken", "[threads]") {
     app::SimulationThread thread;
     thread.start(big_cloth());
     thread.step(1'000'000);
@@ -169,7 +170,7 @@ TEST_CASE("A new start drops the steps that were still to be taken") {
     REQUIRE(published.snapshot->steps == 0);
 }
 
-TEST_CASE("Pausing drops the steps that were still to be taken") {
+TEST_CASE("Pausing drops the steps that were still to be taken", "[threads]") {
     app::SimulationThread thread;
     thread.start(big_cloth());
     thread.step_frames(1'000'000);
@@ -178,7 +179,7 @@ TEST_CASE("Pausing drops the steps that were still to be taken") {
     REQUIRE_FALSE(finished(thread).playing);
 }
 
-TEST_CASE("The thread ends while it plays, with changes of a big scene still to be made") {
+TEST_CASE("The thread ends while it plays, with changes of a big scene still to be made", "[threads]") {
     const auto thread = std::make_unique<app::SimulationThread>();
     thread->start(big_cloth());
     thread->play(true);
@@ -192,7 +193,7 @@ TEST_CASE("The thread ends while it plays, with changes of a big scene still to 
     // Its destruction here must not hang.
 }
 
-TEST_CASE("Any commands in any order leave a thread that does as it is told") {
+TEST_CASE("Any commands in any order leave a thread that does as it is told", "[threads]") {
     for (int seed = 0; seed < attempts(60); ++seed) {
         INFO("seed " << seed);
         RandomScene random(static_cast<std::uint64_t>(seed));

@@ -9,7 +9,8 @@
 using namespace clothlab::test;
 using nlohmann::json;
 
-TEST_CASE("bench --json prints one object with the machine, the rows and a summary, and its progress elsewhere") {
+TEST_CASE("bench --json prints one object with the machine, the rows and a summary, and its progress elsewhere",
+          "[program][threads]") {
     const Finished finished = clothlab::test::clothlab({"bench", "--quick", "--sizes", "8", "--json"});
     INFO(finished.err);
     REQUIRE(finished.status == 0);
@@ -31,7 +32,7 @@ TEST_CASE("bench --json prints one object with the machine, the rows and a summa
     REQUIRE(textbooks == 3);
 }
 
-TEST_CASE("bench prints a table that fits 120 columns") {
+TEST_CASE("bench prints a table that fits 120 columns", "[program]") {
     const Finished finished = clothlab::test::clothlab({"bench", "--quick", "--sizes", "8,9", "--threads", "1",
                                                         "--filter", "springs/./(single/scalar|double/textbook)"});
     INFO(finished.err);
@@ -47,7 +48,7 @@ TEST_CASE("bench prints a table that fits 120 columns") {
     REQUIRE(finished.out.find("ns per point") != std::string::npos);
 }
 
-TEST_CASE("What bench cannot do ends with status 2 and a sentence") {
+TEST_CASE("What bench cannot do ends with status 2 and a sentence", "[program]") {
     const auto require_failure = [](const std::vector<std::string>& rest, const std::string& part) {
         std::vector<std::string> arguments{"bench", "--quick"};
         arguments.insert(arguments.end(), rest.begin(), rest.end());

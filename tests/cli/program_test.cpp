@@ -35,7 +35,7 @@ void require_failure(int status, const std::vector<std::string>& arguments, cons
 
 } // namespace
 
-TEST_CASE("Usage errors end with status 2 and a sentence on standard error") {
+TEST_CASE("Usage errors end with status 2 and a sentence on standard error", "[program]") {
     require_failure(2, {"run"}, {"scene"});
     require_failure(2, {"run", pinned2, "--frame", "1"}, {"--frame"});
     require_failure(2, {"run", pinned2, "extra"}, {"extra"});
@@ -59,7 +59,7 @@ TEST_CASE("Usage errors end with status 2 and a sentence on standard error") {
     require_failure(2, {"run", pinned2, "validate", pinned2}, {});
 }
 
-TEST_CASE("Bad settings end with status 2, the argument and what is allowed") {
+TEST_CASE("Bad settings end with status 2, the argument and what is allowed", "[program]") {
     const auto require_bad = [](const std::string& setting, const std::vector<std::string>& parts) {
         require_failure(2, {"run", pinned2, "--frames", "1", "--hash", "--set", setting}, parts);
     };
@@ -76,7 +76,7 @@ TEST_CASE("Bad settings end with status 2, the argument and what is allowed") {
     require_bad("cloth.num_width_points=1000000000", {"2048"});
 }
 
-TEST_CASE("Settings are applied in their order, and are what the file could have said") {
+TEST_CASE("Settings are applied in their order, and are what the file could have said", "[program]") {
     const auto hash = [](std::vector<std::string> settings) {
         std::vector<std::string> arguments{"run", pinned2, "--frames", "2", "--hash"};
         for (const std::string& setting : settings)
@@ -100,7 +100,7 @@ TEST_CASE("Settings are applied in their order, and are what the file could have
             hash({"cloth.ks=4000"}));
 }
 
-TEST_CASE("Bad scenes end with status 2, whatever is wrong with them") {
+TEST_CASE("Bad scenes end with status 2, whatever is wrong with them", "[program]") {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::string, std::string>> bad{
         {"", "empty"},
@@ -127,7 +127,7 @@ TEST_CASE("Bad scenes end with status 2, whatever is wrong with them") {
     }
 }
 
-TEST_CASE("Output that cannot be written ends with status 1 and its name") {
+TEST_CASE("Output that cannot be written ends with status 1 and its name", "[program]") {
     const TemporaryFolder folder;
     const std::string nowhere = (folder / "no" / "such" / "file").string();
     for (const std::string option : {"--csv", "--obj", "--state"})
@@ -135,7 +135,7 @@ TEST_CASE("Output that cannot be written ends with status 1 and its name") {
             require_failure(1, {"run", pinned2, "--frames", "1", "--hash", option, file}, {file, "cannot be written"});
 }
 
-TEST_CASE("A full standard output ends with status 1") {
+TEST_CASE("A full standard output ends with status 1", "[program]") {
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"run", pinned2, "--frames", "1", "--hash"},
           {"run", pinned2, "--frames", "1", "--json"},
@@ -148,7 +148,7 @@ TEST_CASE("A full standard output ends with status 1") {
     }
 }
 
-TEST_CASE("Without --json a run prints its results as a table, to standard output alone") {
+TEST_CASE("Without --json a run prints its results as a table, to standard output alone", "[program]") {
     const Finished finished = clothlab::test::clothlab({"run", pinned2, "--frames", "1"});
     REQUIRE(finished.status == 0);
     REQUIRE(finished.err.empty());
@@ -156,7 +156,7 @@ TEST_CASE("Without --json a run prints its results as a table, to standard outpu
         REQUIRE(finished.out.find(part) != std::string::npos);
 }
 
-TEST_CASE("validate names every file: the good ones on standard output, the bad ones on standard error") {
+TEST_CASE("validate names every file: the good ones on standard output, the bad ones on standard error", "[program]") {
     const TemporaryFolder folder;
     const std::string bad = (folder / "bad.json").string();
     write_file(bad, "{\n\"cloth\": 1}");
@@ -170,7 +170,7 @@ TEST_CASE("validate names every file: the good ones on standard output, the bad 
     REQUIRE(clothlab::test::clothlab(all).status == 0);
 }
 
-TEST_CASE("list prints every kind of thing, as a table and as JSON") {
+TEST_CASE("list prints every kind of thing, as a table and as JSON", "[program]") {
     for (const std::string what : {"integrators", "shaders", "rules", "scenes", "parameters"}) {
         INFO(what);
         const Finished table = clothlab::test::clothlab({"list", what});
@@ -189,7 +189,7 @@ TEST_CASE("list prints every kind of thing, as a table and as JSON") {
     }
 }
 
-TEST_CASE("Every integrator that is listed can be run") {
+TEST_CASE("Every integrator that is listed can be run", "[program]") {
     const json rows = json::parse(clothlab::test::clothlab({"list", "integrators", "--json"}).out);
     for (const json& row : rows) {
         const auto name = row.at("name").get<std::string>();
@@ -200,7 +200,7 @@ TEST_CASE("Every integrator that is listed can be run") {
     }
 }
 
-TEST_CASE("Every scene that is listed can be run by its name") {
+TEST_CASE("Every scene that is listed can be run by its name", "[program]") {
     const json rows = json::parse(clothlab::test::clothlab({"list", "scenes", "--json"}).out);
     REQUIRE(rows.size() == files_of(checkout() / "scenes").size());
     for (const json& row : rows) {
@@ -212,7 +212,7 @@ TEST_CASE("Every scene that is listed can be run by its name") {
     }
 }
 
-TEST_CASE("The parameters that are listed are the table's, with defaults that --set takes") {
+TEST_CASE("The parameters that are listed are the table's, with defaults that --set takes", "[program]") {
     const json rows = json::parse(clothlab::test::clothlab({"list", "parameters", "--json"}).out);
     REQUIRE(rows.size() == scene::fields().size());
     std::vector<std::string> arguments{"run", pinned2, "--frames", "1", "--hash"};
@@ -229,7 +229,7 @@ TEST_CASE("The parameters that are listed are the table's, with defaults that --
     REQUIRE(finished.out == plain); // the course's scene is the defaults
 }
 
-TEST_CASE("Help and version go to standard output") {
+TEST_CASE("Help and version go to standard output", "[program]") {
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"--help"}, {"--version"}, {"run", "--help"}, {"list", "--help"}}) {
         const Finished finished = clothlab::test::clothlab(arguments);
@@ -239,7 +239,7 @@ TEST_CASE("Help and version go to standard output") {
     }
 }
 
-TEST_CASE("A program without its GUI says so where one is needed") {
+TEST_CASE("A program without its GUI says so where one is needed", "[program]") {
     // Whether this one has a GUI is told by what it says to a picture without a name: usage comes first in both.
     const Finished probe = clothlab::test::clothlab({"render", pinned2, "--size", "0x0", "-o", "picture.png"});
     REQUIRE(probe.status != 0);

@@ -11,7 +11,7 @@ using namespace clothlab;
 using namespace clothlab::test;
 using nlohmann::ordered_json;
 
-TEST_CASE("run --csv writes every point of every frame, with digits that read back as the same bits") {
+TEST_CASE("run --csv writes every point of every frame, with digits that read back as the same bits", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder), file = (folder / "out.csv").string();
     for (const std::string precision : {"single", "double"}) {
@@ -42,7 +42,7 @@ TEST_CASE("run --csv writes every point of every frame, with digits that read ba
     }
 }
 
-TEST_CASE("run --every writes frame 0 and every Nth after it") {
+TEST_CASE("run --every writes frame 0 and every Nth after it", "[program]") {
     const TemporaryFolder folder;
     const auto rows = read_csv(run(small_scene(folder), {"--frames", "10", "--csv", "-", "--every", "4"}));
     REQUIRE(rows.size() == 3 * 42);
@@ -50,7 +50,7 @@ TEST_CASE("run --every writes frame 0 and every Nth after it") {
         REQUIRE(rows[42 * n].frame == 4 * n);
 }
 
-TEST_CASE("A run saved after 5 frames and resumed for 5 ends as one of 10, files included") {
+TEST_CASE("A run saved after 5 frames and resumed for 5 ends as one of 10, files included", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder), state = (folder / "half.state").string();
     for (const std::string set : {"simulation.precision=single", "simulation.precision=double"}) {
@@ -67,7 +67,7 @@ TEST_CASE("A run saved after 5 frames and resumed for 5 ends as one of 10, files
     }
 }
 
-TEST_CASE("A damaged, foreign or missing state is refused with its file and nothing on standard output") {
+TEST_CASE("A damaged, foreign or missing state is refused with its file and nothing on standard output", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder), state = (folder / "half.state").string();
     run(scene, {"--frames", "2", "--state", state});
@@ -93,7 +93,7 @@ TEST_CASE("A damaged, foreign or missing state is refused with its file and noth
     require_refused(folder.path().string());
 }
 
-TEST_CASE("The largest cloth's state can be resumed as well") {
+TEST_CASE("The largest cloth's state can be resumed as well", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder), state = (folder / "large.state").string();
     const std::vector<std::string> large{
@@ -108,7 +108,7 @@ TEST_CASE("The largest cloth's state can be resumed as well") {
     REQUIRE(run(scene, with) == hash);
 }
 
-TEST_CASE("run --obj writes the mesh: vertices, texture coordinates and triangles that refer to them") {
+TEST_CASE("run --obj writes the mesh: vertices, texture coordinates and triangles that refer to them", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder), file = (folder / "cloth.obj").string();
     run(scene, {"--frames", "2", "--obj", file});
@@ -146,7 +146,7 @@ TEST_CASE("run --obj writes the mesh: vertices, texture coordinates and triangle
     REQUIRE(faces == 2 * 6 * 5);
 }
 
-TEST_CASE("The command line meets the supplied trajectory of pinned cloth within 1e-9 m at frame 10") {
+TEST_CASE("The command line meets the supplied trajectory of pinned cloth within 1e-9 m at frame 10", "[program]") {
     const TemporaryFolder folder;
     const std::string csv = (folder / "out.csv").string();
     const int frames = sanitized ? 10 : 90;

@@ -9,7 +9,8 @@ using namespace clothlab;
 using namespace clothlab::test;
 using nlohmann::ordered_json;
 
-TEST_CASE("run --hash prints the 16 hex digits of the library's hash, for any number of threads") {
+TEST_CASE("run --hash prints the 16 hex digits of the library's hash, for any number of threads",
+          "[program][threads]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
     const auto simulation = sim::Simulation::create(scene::load_scene(scene).simulation);
@@ -23,7 +24,7 @@ TEST_CASE("run --hash prints the 16 hex digits of the library's hash, for any nu
     REQUIRE(run(scene, {"--frames", "6", "--hash"}) != digits.data());
 }
 
-TEST_CASE("run --json prints one object with the documented keys and consistent values") {
+TEST_CASE("run --json prints one object with the documented keys and consistent values", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
     const ordered_json json =
@@ -80,7 +81,7 @@ TEST_CASE("run --json prints one object with the documented keys and consistent 
             run(scene, {"--frames", "5", "--hash", "--set", "simulation.precision=double"}));
 }
 
-TEST_CASE("run --seconds is rounded up to whole frames, and 0.1 s at 90 frames/s is 9 of them") {
+TEST_CASE("run --seconds is rounded up to whole frames, and 0.1 s at 90 frames/s is 9 of them", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
     const auto frames = [&](const std::string& seconds) {
@@ -94,7 +95,7 @@ TEST_CASE("run --seconds is rounded up to whole frames, and 0.1 s at 90 frames/s
     REQUIRE(ordered_json::parse(run(scene, {"--json"}))["frames"] == 90); // without a word
 }
 
-TEST_CASE("run --frames 0 shows the start") {
+TEST_CASE("run --frames 0 shows the start", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
     const ordered_json json = ordered_json::parse(run(scene, {"--frames", "0", "--json"}));
@@ -104,7 +105,7 @@ TEST_CASE("run --frames 0 shows the start") {
     REQUIRE(read_csv(run(scene, {"--frames", "0", "--csv", "-"})).size() == 42);
 }
 
-TEST_CASE("A blow-up is a result: status diverged, with its cause and frame, and success") {
+TEST_CASE("A blow-up is a result: status diverged, with its cause and frame, and success", "[program]") {
     const ordered_json json = ordered_json::parse(
         run(pinned2, {"--frames", "3", "--json", "--set", "cloth.ks=1e9", "--set", "rules.limit=off"}));
     REQUIRE(json["status"] == "diverged");
@@ -115,7 +116,7 @@ TEST_CASE("A blow-up is a result: status diverged, with its cause and frame, and
     REQUIRE(json["stability"]["omega"].is_null()); // infinite
 }
 
-TEST_CASE("A jitter is a result too: the margin of what is left says why") {
+TEST_CASE("A jitter is a result too: the margin of what is left says why", "[program]") {
     const ordered_json json =
         ordered_json::parse(run(pinned2, {"--frames", "20", "--json", "--set", "cloth.ks=225000"}));
     REQUIRE(json["status"] == "jitter");
@@ -126,14 +127,14 @@ TEST_CASE("A jitter is a result too: the margin of what is left says why") {
     REQUIRE(json["stability"]["ks_max"] < 225000);
 }
 
-TEST_CASE("A negative density runs, as in the course") {
+TEST_CASE("A negative density runs, as in the course", "[program]") {
     const ordered_json json =
         ordered_json::parse(run(pinned2, {"--frames", "2", "--json", "--set", "cloth.density=-150"}));
     REQUIRE(json["steps"] == 60);
     REQUIRE(json["hash"].get<std::string>() + "\n" != run(pinned2, {"--frames", "2", "--hash"}));
 }
 
-TEST_CASE("A scene whose name is not UTF-8 runs, and its JSON is JSON") {
+TEST_CASE("A scene whose name is not UTF-8 runs, and its JSON is JSON", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = (folder / "caf\xe9.json").string();
     std::filesystem::copy_file(small_scene(folder), scene);

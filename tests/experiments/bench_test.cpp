@@ -60,7 +60,8 @@ void require_consistent(const BenchGroup& group, const BenchRow& row) {
 
 } // namespace
 
-TEST_CASE("The bench times every kernel that this machine has, in every case and size, beside the textbook") {
+TEST_CASE("The bench times every kernel that this machine has, in every case and size, beside the textbook",
+          "[threads]") {
     BenchConfig config = tiny();
     std::vector<std::string> said;
     config.progress = [&](const std::string& what) { said.push_back(what); };
@@ -92,7 +93,7 @@ TEST_CASE("The bench times every kernel that this machine has, in every case and
     REQUIRE(table.summary.empty()); // it is about other sizes
 }
 
-TEST_CASE("Runs of the same precision that are timed together do the same steps") {
+TEST_CASE("Runs of the same precision that are timed together do the same steps", "[threads]") {
     BenchConfig config = tiny("falling");
     config.sizes = {24};
     const BenchTable table = run_bench(config);
@@ -109,7 +110,7 @@ TEST_CASE("Runs of the same precision that are timed together do the same steps"
     }
 }
 
-TEST_CASE("A filter leaves the runs it matches, and the textbook's to compare them with") {
+TEST_CASE("A filter leaves the runs it matches, and the textbook's to compare them with", "[threads]") {
     const BenchTable table = run_bench(tiny("^(springs|falling)/8/single/scalar"));
     REQUIRE(table.groups.size() == 2);
     for (const BenchGroup& group : table.groups) {

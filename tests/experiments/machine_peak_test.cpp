@@ -8,7 +8,7 @@
 
 using namespace clothlab::experiments;
 
-TEST_CASE("Every peak of the machine is measured, for every number of threads") {
+TEST_CASE("Every peak of the machine is measured, for every number of threads", "[threads]") {
     constexpr std::array threads{1, 2};
     const MachinePeak machine = measure_machine(threads);
     REQUIRE(machine.hardware_threads >= 1);

@@ -10,7 +10,8 @@
 
 using namespace clothlab::sim;
 
-TEST_CASE("Each task of a round is done once, by as many threads as asked for, and all is done when run returns") {
+TEST_CASE("Each task of a round is done once, by as many threads as asked for, and all is done when run returns",
+          "[threads]") {
     ThreadPool pool(4);
     REQUIRE(pool.threads() == 4);
     std::array<int, 4> done{};
@@ -29,7 +30,7 @@ TEST_CASE("Each task of a round is done once, by as many threads as asked for, a
         REQUIRE(by[i] != by[0]);
 }
 
-TEST_CASE("Threads that have gone to sleep wake up for the next round") {
+TEST_CASE("Threads that have gone to sleep wake up for the next round", "[threads]") {
     ThreadPool pool(3);
     std::array<int, 3> done{};
     for (int round = 0; round < 5; ++round) {

@@ -121,7 +121,7 @@ TEST_CASE("A run that is saved and loaded half way goes on to the same bits") {
         }
 }
 
-TEST_CASE("Instruction sets and threads change no bit of methods of displacements") {
+TEST_CASE("Instruction sets and threads change no bit of methods of displacements", "[threads]") {
     for (const sim::IntegratorId integrator : methods) {
         const auto hash = [&](const sim::Execution& execution) {
             sim::Description description = busy_cloth(integrator);

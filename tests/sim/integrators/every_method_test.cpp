@@ -80,7 +80,7 @@ TEST_CASE("Every method says what it is, by a name of its own") {
     }
 }
 
-TEST_CASE("Every method gives the same bits in any way of computing it") {
+TEST_CASE("Every method gives the same bits in any way of computing it", "[threads]") {
     const sim::IntegratorInfo method = any_method();
     const sim::Precision precision = GENERATE(sim::Precision::single_precision, sim::Precision::double_precision);
     INFO(method.name);
@@ -185,7 +185,7 @@ TEST_CASE("Every method but explicit Euler runs scenes like the shipped ones") {
     REQUIRE(simulation->position(210).y < start.y - 0.02);
 }
 
-TEST_CASE("Steps of every method allocate no memory once it is warm") {
+TEST_CASE("Steps of every method allocate no memory once it is warm", "[threads]") {
     const sim::IntegratorInfo method = any_method();
     const int threads = GENERATE(1, 3);
     const sim::Precision precision = GENERATE(sim::Precision::single_precision, sim::Precision::double_precision);

@@ -31,7 +31,8 @@ TEST_CASE("The counter of allocations counts") {
     REQUIRE(allocations() == before + 2);
 }
 
-TEST_CASE("A step allocates no memory, with contacts of all kinds, in wind, and in any way of computing it") {
+TEST_CASE("A step allocates no memory, with contacts of all kinds, in wind, and in any way of computing it",
+          "[threads]") {
     for (const sim::InstructionSet set : supported_sets())
         for (const int threads : {1, 3})
             for (const sim::WindKind wind : {sim::WindKind::none, sim::WindKind::physical}) {

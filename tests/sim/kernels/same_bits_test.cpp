@@ -105,7 +105,8 @@ void require_same_stages(Stage stage) {
 
 } // namespace
 
-TEST_CASE("Forces by kernels have the bits of the plain loops, whatever the grid, the springs and the positions") {
+TEST_CASE("Forces by kernels have the bits of the plain loops, whatever the grid, the springs and the positions",
+          "[threads]") {
     require_same_stages([](auto& sheet) {
         sim::evaluate_forces(sheet.model, sheet.state, sheet.work);
         sheet.state.position = sheet.work.force; // which is compared
@@ -113,7 +114,7 @@ TEST_CASE("Forces by kernels have the bits of the plain loops, whatever the grid
     });
 }
 
-TEST_CASE("Verlet steps by kernels have the bits of the plain loops, and move no pinned point") {
+TEST_CASE("Verlet steps by kernels have the bits of the plain loops, and move no pinned point", "[threads]") {
     require_same_stages([](auto& sheet) {
         sim::StepCounts counts;
         sim::integrate(sheet.model, sheet.state, sheet.work, counts);
@@ -121,15 +122,16 @@ TEST_CASE("Verlet steps by kernels have the bits of the plain loops, and move no
     });
 }
 
-TEST_CASE("Contacts by kernels have the bits of the plain loops") {
+TEST_CASE("Contacts by kernels have the bits of the plain loops", "[threads]") {
     require_same_stages([](auto& sheet) { return sim::resolve_colliders(sheet.model, sheet.state, sheet.work); });
 }
 
-TEST_CASE("The stretch limit by kernels has the bits of the plain sweep, when few springs are long and when most are") {
+TEST_CASE("The stretch limit by kernels has the bits of the plain sweep, when few springs are long and when most are",
+          "[threads]") {
     require_same_stages([](auto& sheet) { return sim::limit_stretch(sheet.model, sheet.state, sheet.work); });
 }
 
-TEST_CASE("Self-collision by kernels has the bits of the plain loops") {
+TEST_CASE("Self-collision by kernels has the bits of the plain loops", "[threads]") {
     require_same_stages([](auto& sheet) {
         std::size_t pushes = 0;
         for (int i = 0; i < 3; ++i) // again, from where the points are then
@@ -150,7 +152,7 @@ TEST_CASE("A force of minus zero stays one: such scenes are left to the plain lo
     }
 }
 
-TEST_CASE("Thousands of points in one cell, or at one place, push each other as the plain loops have it") {
+TEST_CASE("Thousands of points in one cell, or at one place, push each other as the plain loops have it", "[threads]") {
     sim::Description description;
     description.cloth.num_width_points = description.cloth.num_height_points = 40;
     description.cloth.thickness = 0.001;
@@ -171,7 +173,8 @@ TEST_CASE("Thousands of points in one cell, or at one place, push each other as 
     }
 }
 
-TEST_CASE("The list with a skin misses no contact while two sheets slide past each other, far out as well") {
+TEST_CASE("The list with a skin misses no contact while two sheets slide past each other, far out as well",
+          "[threads]") {
     sim::Description description;
     description.cloth.num_width_points = 24;
     description.cloth.num_height_points = 20;

@@ -72,7 +72,7 @@ const Stored stored[count] = {
 
 } // namespace
 
-TEST_CASE("Every instruction set and any number of threads gives the stored hash") {
+TEST_CASE("Every instruction set and any number of threads gives the stored hash", "[threads]") {
     for (const Stored& expected : stored)
         for (const sim::Precision precision : {sim::Precision::single_precision, sim::Precision::double_precision}) {
             sim::Description description = expected.scene();

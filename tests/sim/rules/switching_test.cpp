@@ -86,7 +86,8 @@ TEST_CASE("A rule switched while running holds from the next step on, as in a ru
 }
 
 TEST_CASE(
-    "Steps by the physical rules have the same bits by any instruction set and number of threads, and allocate none") {
+    "Steps by the physical rules have the same bits by any instruction set and number of threads, and allocate none",
+    "[threads]") {
     for (const auto self_collision : {sim::SelfCollisionRule::neighbours, sim::SelfCollisionRule::triangles}) {
         std::uint64_t expected = 0;
         for (const sim::InstructionSet set : supported_sets())
