@@ -5,11 +5,14 @@
 GUI ?= ON
 SCENE ?=
 ARGS ?=
+# Another build folder; only the tests with this label.
+DIR ?=
+LABEL ?=
 export CLOTHLAB_IMGUI_BUNDLE_DIR
 
 gui := $(if $(filter OFF Off off NO no 0 FALSE false,$(GUI)),OFF,ON)
 preset := $(if $(filter ON,$(gui)),release,headless)
-dir := $(if $(filter ON,$(gui)),build,build/headless)
+dir := $(or $(DIR),$(if $(filter ON,$(gui)),build,build/headless))
 needs := $(if $(filter ON,$(gui)),gui)
 jobs := $(shell nproc)
 # A user's newer compiler may know a warning that ours does not; in CI each is an error.
@@ -21,7 +24,7 @@ bundle := $(if $(CLOTHLAB_IMGUI_BUNDLE_DIR),$(abspath $(CLOTHLAB_IMGUI_BUNDLE_DI
 configure = @( test -f $(2)/build.ninja && for line in $(4) CLOTHLAB_GUI:BOOL=$(3) \
 	$(if $(filter ON,$(3)),'CLOTHLAB_IMGUI_BUNDLE_DIR:PATH=$(bundle)'); \
 	do grep -qsxF -e "$$line" $(2)/CMakeCache.txt || exit 1; done ) || \
-	cmake --preset $(1) $(addprefix -D,$(4)) -DCLOTHLAB_GUI:BOOL=$(3) \
+	cmake --preset $(1) -B $(2) $(addprefix -D,$(4)) -DCLOTHLAB_GUI:BOOL=$(3) \
 	$(if $(filter ON,$(3)),'-DCLOTHLAB_IMGUI_BUNDLE_DIR:PATH=$(bundle)')
 
 # `run` neither needs nor builds the tests, but leaves them configured if they are.
@@ -60,7 +63,7 @@ test:
 	@cmake/setup.sh tests $(needs)
 	$(call configure,$(preset),$(dir),$(gui),CLOTHLAB_TESTS:BOOL=ON $(werror))
 	cmake --build $(dir)
-	ctest --preset $(preset) --parallel $(jobs)
+	ctest --test-dir $(dir) --output-on-failure --no-tests=error --parallel $(jobs) $(addprefix --label-regex ,$(LABEL))
 
 test-sanitizers:
 	@cmake/setup.sh tests $(needs)
