@@ -1,4 +1,4 @@
-// How hard randomised tests try: sanitizers make everything several times slower.
+// How hard tests try: sanitizers make everything several times slower. There each piece of code runs, but less often.
 #pragma once
 
 namespace clothlab::test {
@@ -9,7 +9,7 @@ inline constexpr bool sanitized = true;
 inline constexpr bool sanitized = false;
 #endif
 
-/// A number of attempts, fewer under a sanitizer.
+/// A number of attempts or steps, fewer under a sanitizer.
 constexpr int attempts(int number) {
     return sanitized ? (number + 9) / 10 : number;
 }

@@ -89,6 +89,8 @@ TEST_CASE("Every method gives the same bits in any way of computing it", "[threa
     step(*plain, 6);
     for (const sim::InstructionSet set : supported_sets())
         for (const int threads : {1, 2, 3}) {
+            if (sanitized && threads != 3)
+                continue;
             const auto other = sim::Simulation::create(description, exactly(set, threads));
             step(*other, 6);
             INFO(name_of(set) << ", " << threads << " threads");
@@ -141,6 +143,8 @@ TEST_CASE("A switch to any method and back keeps every position, and the motion"
     description.stepping.gravity = {0, -9.8, 0};
     solve_exactly(description, from);
     for (const sim::IntegratorInfo& to : sim::integrators()) {
+        if (sanitized && &to - &sim::integrators().front() > 2 && from.id != sim::IntegratorId::course_verlet)
+            continue; // there each method is left and entered, not in every pair
         INFO("to " << to.name);
         const auto switched = sim::Simulation::create(description), straight = sim::Simulation::create(description);
         step(*switched, 40);
@@ -175,7 +179,7 @@ TEST_CASE("Every method but explicit Euler runs scenes like the shipped ones") {
     INFO(method.name << ", scene " << which);
     const auto simulation = sim::Simulation::create(shipped(which, method, precision));
     const sim::Vec3 start = simulation->position(210);
-    for (int frame = 0; frame < 30; ++frame)
+    for (int frame = 0; frame < (sanitized ? 12 : 30); ++frame)
         simulation->step_frame();
     const sim::Diagnostics result = simulation->diagnose();
     INFO(result.cause);

@@ -4,6 +4,7 @@
 
 #include "sim/simulation.h"
 #include "support/allocations.h"
+#include "support/effort.h"
 #include "support/every_execution.h"
 
 using namespace clothlab;
@@ -41,7 +42,7 @@ TEST_CASE("A step allocates no memory, with contacts of all kinds, in wind, and 
                 const auto simulation = sim::Simulation::create(description, exactly(set, threads));
                 sim::StepCounts sum;
                 const std::size_t before = allocations();
-                for (int i = 0; i < 1200; ++i) {
+                for (int i = 0; i < attempts(1200); ++i) {
                     const sim::StepCounts counts = simulation->step();
                     sum.self_contacts += counts.self_contacts;
                     sum.contacts += counts.contacts;

@@ -6,6 +6,7 @@
 
 #include "sim/simulation.h"
 #include "support/allocations.h"
+#include "support/effort.h"
 #include "support/every_execution.h"
 
 using namespace clothlab;
@@ -103,7 +104,7 @@ TEST_CASE(
                 simulation->step();
                 const std::size_t before = allocations();
                 std::size_t contacts = 0;
-                for (int i = 0; i < 600; ++i)
+                for (int i = 0; i < attempts(600); ++i)
                     contacts += simulation->step().self_contacts;
                 REQUIRE(allocations() == before);
                 REQUIRE(contacts > 0);
