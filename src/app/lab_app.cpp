@@ -11,6 +11,8 @@
 #include "app/gui/file_dialog.h"
 #include "app/scene_view.h"
 #include "app/shader_list.h"
+#include "app/textures.h"
+#include "render/procedural.h"
 #include "scene/io.h"
 
 namespace clothlab::app {
@@ -51,9 +53,11 @@ LabApp::LabApp(const LabOptions& options, scene::Scene scene, fs::path file)
         lab_.spring_colours[i] = {c.r, c.g, c.b};
     }
     lab_.has_file_dialogs = options.window == Window::Kind::desktop && FileDialog::available();
+    for (const render::BuiltInTexture& texture : render::built_in_textures())
+        lab_.textures.push_back({texture.name, texture.title, static_cast<scene::TextureUsage>(texture.usage)});
     window_.on_drop = [this](const std::vector<std::string>& files) {
         if (!files.empty())
-            lab_.ask(ui::OpenScene{files.front()});
+            drop(files.front());
     };
     set_scene(std::move(scene), std::move(file));
 }
@@ -121,6 +125,21 @@ void LabApp::take_published() {
     if (watched != watching_stability_)
         simulation_.watch_stability(watched);
     watching_stability_ = watched;
+    tell_legend();
+    const sim::PointQuantity quantity = quantity_of(lab_.scene.look, lab_.shaders);
+    if (quantity != watching_quantity_)
+        simulation_.watch_quantity(quantity);
+    watching_quantity_ = quantity;
+}
+
+void LabApp::tell_legend() {
+    const scene::ShaderDeclaration* shader = ui::shader_in_use(lab_);
+    const scene::ShaderParameter* map = shader && shader->legend ? shader->find(shader->legend->map) : nullptr;
+    const std::string name = map ? std::get<std::string>(value_of(lab_.scene.look, *shader, *map)) : std::string();
+    if (name == legend_map_)
+        return;
+    legend_map_ = name;
+    lab_.legend_colours = name.empty() ? std::vector<std::array<float, 3>>() : ramp_colours(name);
 }
 
 void LabApp::tell_trouble(const sim::Diagnostics& d) {
@@ -137,12 +156,32 @@ void LabApp::tell_trouble(const sim::Diagnostics& d) {
 void LabApp::set_scene(scene::Scene scene, fs::path file) {
     if (!scene.camera)
         scene.camera = scene::fitting_camera(scene.simulation);
+    resolve_textures(scene.look, lab_.shaders, file.parent_path());
+    try {
+        scene::check_shader_values(scene.look, lab_.shaders, file.string());
+    } catch (const scene::SceneError& e) {
+        say(true, e.what()); // the shader's default is used
+    }
     lab_.scene = lab_.loaded = scene;
     lab_.file = std::move(file);
     lab_.pending.reset();
     history_.restart(scene);
     passed_on_ = scene.simulation;
     simulation_.start(passed_on_);
+}
+
+void LabApp::drop(const fs::path& file) {
+    if (!is_picture(file)) {
+        lab_.ask(ui::OpenScene{file});
+        return;
+    }
+    const scene::ShaderDeclaration* shader = ui::shader_in_use(lab_);
+    const scene::ShaderParameter* parameter = shader ? parameter_for_picture(*shader, file) : nullptr;
+    if (!parameter)
+        return say(true, file.string() + ": the shader in use takes no picture; choose Texture, Bump or another first.");
+    std::error_code error;
+    scene::set_value(lab_.scene.look, *shader, *parameter, fs::absolute(file, error).string());
+    say(false, parameter->label + ": " + file.filename().string());
 }
 
 bool LabApp::open(const fs::path& file) {
@@ -248,7 +287,9 @@ void LabApp::draw_viewport() {
 
 void LabApp::save(const fs::path& file) {
     try {
-        scene::save_scene(lab_.scene, file);
+        scene::Scene saved = lab_.scene;
+        relate_textures(saved.look, lab_.shaders, file.parent_path());
+        scene::save_scene(saved, file);
         lab_.loaded = lab_.scene;
         lab_.file = file;
         say(false, "Saved as " + file.string());

@@ -44,6 +44,8 @@ public:
 
     /// Opens a scene file. One that is wrong leaves everything as it was, and the lab says why; then false.
     bool open(const std::filesystem::path& file);
+    /// What the user dropped onto the window: a scene is opened, a picture becomes a texture of the shader in use.
+    void drop(const std::filesystem::path& file);
 
     ui::Lab& lab() { return lab_; }
     const render::DrawReport& draw_report() const { return draw_report_; }
@@ -53,6 +55,7 @@ public:
 private:
     void set_scene(scene::Scene scene, std::filesystem::path file);
     void take_published();
+    void tell_legend();
     void tell_trouble(const sim::Diagnostics& diagnostics);
     void pass_on_edits();
     void carry_out_requests();
@@ -75,6 +78,8 @@ private:
     std::string refusal_;                ///< the simulation's last error that has been shown
     sim::Status told_ = sim::Status::ok; ///< what the user knows of the run's health
     bool watching_stability_ = false;
+    std::string legend_map_; ///< whose colours lab_.legend_colours are
+    sim::PointQuantity watching_quantity_ = sim::PointQuantity::none;
 
     // What the viewport shows; while all of it stays the same, it is not drawn again.
     struct Shown {

@@ -32,6 +32,12 @@ render::Uniform uniform(const scene::ShaderParameter& parameter, const scene::Sh
             render::TextureName{std::get<std::string>(value), static_cast<render::TextureUsage>(parameter.usage)}};
 }
 
+const scene::ShaderDeclaration* find(const std::vector<scene::ShaderDeclaration>& shaders, const std::string& name) {
+    const auto found = std::find_if(shaders.begin(), shaders.end(),
+                                    [&](const scene::ShaderDeclaration& shader) { return shader.name == name; });
+    return found == shaders.end() ? nullptr : &*found;
+}
+
 } // namespace
 
 render::View to_view(const scene::Camera& camera, double aspect) {
@@ -49,15 +55,20 @@ render::View to_view(const scene::Camera& camera, double aspect) {
     return view;
 }
 
+sim::PointQuantity quantity_of(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders) {
+    const scene::ShaderDeclaration* shader = find(shaders, look.shader);
+    const auto quantity = shader ? sim::find_point_quantity(shader->quantity) : std::nullopt;
+    return quantity.value_or(sim::PointQuantity::none);
+}
+
 render::Surface to_surface(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders,
                            const std::string& shader) {
     render::Surface surface;
     surface.shader = shader;
     surface.sphere_lat_lines = look.sphere_latitude_lines;
     surface.sphere_lon_lines = look.sphere_longitude_lines;
-    const auto found = std::find_if(shaders.begin(), shaders.end(),
-                                    [&](const scene::ShaderDeclaration& s) { return s.name == shader; });
-    if (found == shaders.end())
+    const scene::ShaderDeclaration* found = find(shaders, shader);
+    if (!found)
         return surface;
     surface.lines = found->lines;
     surface.translucent = found->translucent;

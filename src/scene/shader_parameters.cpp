@@ -9,6 +9,7 @@
 
 #include "scene/error.h"
 #include "scene/fields.h"
+#include "sim/point_quantities.h"
 
 namespace clothlab::scene {
 namespace {
@@ -124,6 +125,8 @@ void about(ShaderDeclaration& shader, const std::string& text, int line) {
         shader.lines = take_word(a, "lines") || shader.lines;
         shader.translucent = take_word(a, "translucent") || shader.translucent;
         shader.quantity = take(a, "quantity", shader.quantity);
+        if (!shader.quantity.empty() && !sim::find_point_quantity(shader.quantity))
+            fail(line, "no such quantity as \"" + shader.quantity + "\"; there are strain, speed, gap and curvature");
         nothing_left(a, "a shader", "title, help, lines, translucent and quantity", line);
     } else if (take_word(a, "legend")) {
         ShaderLegend legend{take(a, "title"), take(a, "unit"), take(a, "low"), take(a, "high"), take(a, "map")};

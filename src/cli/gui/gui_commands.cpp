@@ -10,6 +10,7 @@
 #include "app/lab_app.h"
 #include "app/scene_view.h"
 #include "app/shader_list.h"
+#include "app/textures.h"
 #include "scene/io.h"
 #include "sim/simulation.h"
 
@@ -87,7 +88,7 @@ public:
     render::Image picture(int frame) override {
         while (simulation_->frame() < static_cast<std::uint64_t>(frame))
             simulation_->step_frame();
-        simulation_->capture(snapshot_);
+        simulation_->capture(snapshot_, {.quantity = app::quantity_of(scene_.look, shaders_)});
         const double aspect = static_cast<double>(target_.width()) / target_.height();
         renderer_.draw(app::to_render(scene_, shaders_, &snapshot_, aspect), target_);
         return target_.read();
@@ -126,6 +127,7 @@ int render(const RenderArguments& a) {
     if (scene.look.split.on)
         app::find_shader(shaders, scene.look.split.shader);
     scene::check_shader_values(scene.look, shaders, a.scene.scene);
+    app::resolve_textures(scene.look, shaders, app::scene_path(a.scene.scene).parent_path());
     const double frames_per_second = scene.simulation.stepping.frames_per_second;
     std::unique_ptr<Camera> camera;
     if (a.ui)
