@@ -11,10 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-// All of stb's code is in this file, and private to it, so that another library's copy is no clash.
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_NO_STDIO
+// All of stb's writer is in this file, and private to it, so that another library's copy is no clash.
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
@@ -23,11 +20,12 @@
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #endif
-#include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif
+
+#include "render/picture_file.h"
 
 namespace clothlab::render {
 
@@ -108,26 +106,15 @@ void write_png(const Image& image, const std::filesystem::path& path) {
 }
 
 Image read_png(const std::filesystem::path& path) {
-    const char* what = "cannot read the picture";
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error))
-        fail(what, path, "it is a folder");
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        fail(what, path, last_error());
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    int width = 0, height = 0, channels = 0;
-    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()), &width,
-                              &height, &channels, 4),
-        &stbi_image_free);
-    if (!pixels)
-        fail(what, path, stbi_failure_reason());
-    Image image{width, height, {}};
-    image.rgba.assign(pixels.get(),
-                      pixels.get() + static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
-    return image;
+    return PictureFile(path).rgba8();
+}
+
+float linear_from_srgb(float srgb) {
+    return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+float srgb_from_linear(float linear) {
+    return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
 double difference(const Image& a, const Image& b) {

@@ -21,11 +21,34 @@ struct Image {
     bool operator==(const Image&) const = default;
 };
 
+/// Linear values, 0 and up, red green blue, the top row first.
+struct FloatImage {
+    int width = 0, height = 0;
+    std::vector<float> rgb;
+    const float* pixel(int x, int y) const {
+        return rgb.data() +
+               3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    }
+};
+
+/// One linear value for each pixel, the top row first: a height map, mostly 0 to 1.
+struct GreyImage {
+    int width = 0, height = 0;
+    std::vector<float> values;
+    float pixel(int x, int y) const {
+        return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    }
+    bool operator==(const GreyImage&) const = default;
+};
+
+/// sRGB, 0 to 1, to linear values (IEC 61966-2-1), and back.
+float linear_from_srgb(float srgb);
+float srgb_from_linear(float linear);
+
 /// Writes a PNG, whole or not at all. Throws std::runtime_error with the path and the reason when it cannot be written.
 void write_png(const Image& image, const std::filesystem::path& path);
 
-/// Reads a PNG (or another format that stb_image knows), converted to RGBA8. Throws std::runtime_error with the path
-/// and the reason.
+/// Reads a PNG (or another format that PictureFile knows). Throws std::runtime_error with the path and the reason.
 Image read_png(const std::filesystem::path& path);
 
 /// How different two pictures look, 0 (the same) to 1 (black and white): both are averaged down to 64 x 36 cells, and
