@@ -76,6 +76,16 @@ void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiC
     });
 }
 
+void add_textures(CLI::App& app, TexturesArguments& a, const GuiCommands& gui, int& status) {
+    auto* textures = app.add_subcommand("textures", "Write the textures that clothlab brings along as PNG pictures");
+    textures->add_option("-o,--output", a.output, "Folder, made where it is missing")->required();
+    textures->final_callback([&] {
+        if (!gui.textures)
+            throw std::runtime_error("this clothlab was built without its GUI and has no textures");
+        status = gui.textures(a);
+    });
+}
+
 void add_bench(CLI::App& app, BenchArguments& a, int& status) {
     auto* bench = app.add_subcommand("bench", "Time the textbook's algorithm against every kernel");
     bench->add_option(
@@ -133,6 +143,9 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
     std::string size = "1280x720";
     add_render(app, render, size, gui, status);
 
+    TexturesArguments textures;
+    add_textures(app, textures, gui, status);
+
     BenchArguments bench;
     add_bench(app, bench, status);
 
@@ -144,11 +157,11 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
     std::string what;
     bool list_json = false;
     auto* list_command = app.add_subcommand("list", "List what there is");
-    list_command->add_option("what", what, "integrators, shaders, rules, scenes or parameters")
+    list_command->add_option("what", what, "integrators, shaders, textures, rules, scenes or parameters")
         ->required()
-        ->check(CLI::IsMember({"integrators", "shaders", "rules", "scenes", "parameters"}));
+        ->check(CLI::IsMember({"integrators", "shaders", "textures", "rules", "scenes", "parameters"}));
     list_command->add_flag("--json", list_json, "As JSON");
-    list_command->final_callback([&] { status = list(what, list_json); });
+    list_command->final_callback([&] { status = list(what, list_json, gui); });
     app.require_subcommand(0, 1);
     app.footer("Without a subcommand, clothlab opens the lab's window on the scene.");
 

@@ -52,10 +52,21 @@ struct BenchArguments {
     bool quick = false, json = false;
 };
 
+struct TexturesArguments {
+    std::string output; ///< folder
+};
+
+/// A texture that clothlab brings along.
+struct TextureRow {
+    std::string name, usage, title;
+};
+
 /// What needs a GUI, given by the program that has one. Each returns the exit status.
 struct GuiCommands {
     std::function<int(const LabArguments&)> lab;
     std::function<int(const RenderArguments&)> render;
+    std::function<int(const TexturesArguments&)> textures;
+    std::function<std::vector<TextureRow>()> list_textures;
 };
 
 int run_program(int argc, const char* const* argv, const GuiCommands& gui);
@@ -63,6 +74,6 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui);
 int run(const RunArguments& arguments);
 int bench(const BenchArguments& arguments);
 int validate(const std::vector<std::string>& files);
-int list(const std::string& what, bool json);
+int list(const std::string& what, bool json, const GuiCommands& gui);
 
 } // namespace clothlab::cli

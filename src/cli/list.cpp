@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "app/core/data_folder.h"
 #include "cli/command_line.h"
@@ -37,6 +38,15 @@ Json shaders() {
     Json rows = Json::array();
     for (const std::string& name : app::shipped_shaders())
         rows.push_back({{"name", name}});
+    return rows;
+}
+
+Json textures(const GuiCommands& gui) {
+    if (!gui.list_textures)
+        throw std::runtime_error("this clothlab was built without its GUI and has no textures");
+    Json rows = Json::array();
+    for (const TextureRow& texture : gui.list_textures())
+        rows.push_back({{"name", texture.name}, {"usage", texture.usage}, {"title", texture.title}});
     return rows;
 }
 
@@ -131,9 +141,10 @@ void print_table(const Json& rows) {
 
 } // namespace
 
-int list(const std::string& what, bool json) {
+int list(const std::string& what, bool json, const GuiCommands& gui) {
     const Json rows = what == "integrators" ? integrators()
                       : what == "shaders"   ? shaders()
+                      : what == "textures"  ? textures(gui)
                       : what == "rules"     ? rules()
                       : what == "scenes"    ? scenes()
                                             : parameters();

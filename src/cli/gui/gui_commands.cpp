@@ -145,7 +145,7 @@ int render(const RenderArguments& a) {
 } // namespace
 
 GuiCommands gui_commands() {
-    return {lab, render};
+    return {lab, render, textures, list_textures};
 }
 
 } // namespace clothlab::cli

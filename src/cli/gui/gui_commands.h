@@ -1,4 +1,4 @@
-// The commands that draw: the lab, and `clothlab render`.
+// The commands that draw: the lab, `clothlab render` and `clothlab textures`.
 #pragma once
 
 #include "cli/command_line.h"
@@ -6,5 +6,8 @@
 namespace clothlab::cli {
 
 GuiCommands gui_commands();
+
+int textures(const TexturesArguments& arguments);
+std::vector<TextureRow> list_textures();
 
 } // namespace clothlab::cli
