@@ -1,14 +1,11 @@
 #include "render/options.h"
 
-#include <cmath>
+#include "render/image.h"
 
 namespace clothlab::render {
 
 glm::vec3 linear(const glm::vec3& srgb) {
-    glm::vec3 result;
-    for (int i = 0; i < 3; ++i)
-        result[i] = srgb[i] <= 0.04045f ? srgb[i] / 12.92f : std::pow((srgb[i] + 0.055f) / 1.055f, 2.4f);
-    return result;
+    return {linear_from_srgb(srgb.x), linear_from_srgb(srgb.y), linear_from_srgb(srgb.z)};
 }
 
 } // namespace clothlab::render

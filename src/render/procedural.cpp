@@ -78,6 +78,11 @@ std::array<float, 3> cube_direction(int face, float s, float t) {
     }
 }
 
+const char* usage_name(TextureUsage usage) {
+    static constexpr const char* names[] = {"colour", "height", "ramp", "environment"};
+    return names[static_cast<std::size_t>(usage)];
+}
+
 std::span<const BuiltInTexture> built_in_textures() {
     return table;
 }

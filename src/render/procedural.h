@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "render/image.h"
-#include "render/texture_usage.h"
+#include "render/options.h"
 
 namespace clothlab::render {
 
@@ -24,6 +24,9 @@ inline constexpr std::array<const char*, 6> cube_face_names = {"posx", "negx", "
 /// The direction from the cube's middle, not normalised, to a point of a face: s to the right and t down its picture,
 /// both -1 to 1.
 std::array<float, 3> cube_direction(int face, float s, float t);
+
+/// "colour", "height", "ramp" or "environment".
+const char* usage_name(TextureUsage usage);
 
 struct BuiltInTexture {
     const char* name;  ///< as shaders and scenes write it

@@ -29,8 +29,8 @@ float encoded(float linear) {
 
 /// A cube map from a function of the direction, of length 1, that returns linear values; each pixel is the mean of
 /// samples x samples.
-template <class Light>
-Cube<Image> surround(int samples, Light light_from) {
+template <class Function>
+Cube<Image> surround(int samples, Function light_from) {
     Cube<Image> cube;
     const float step = 2 / static_cast<float>(size * samples), weight = 1 / static_cast<float>(samples * samples);
     for (int face = 0; face < 6; ++face) {
@@ -58,7 +58,7 @@ Cube<Image> surround(int samples, Light light_from) {
 // --- sky -------------------------------------------------------------------------------------------------------------
 
 vec3 sky_light(const vec3& d) {
-    static const vec3 sun = glm::normalize(Light{}.position);
+    static const vec3 sun = glm::normalize(Options{}.lights[0].position);
     const vec3 haze(0.62f, 0.72f, 0.82f);
     const float towards_sun = std::max(glm::dot(d, sun), 0.f);
     if (d.y < 0) {

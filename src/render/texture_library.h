@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "render/gl.h"
+#include "render/options.h"
 #include "render/texture_files.h"
-#include "render/texture_usage.h"
 
 namespace clothlab::render {
 
