@@ -178,7 +178,8 @@ void LabApp::drop(const fs::path& file) {
     const scene::ShaderDeclaration* shader = ui::shader_in_use(lab_);
     const scene::ShaderParameter* parameter = shader ? parameter_for_picture(*shader, file) : nullptr;
     if (!parameter)
-        return say(true, file.string() + ": the shader in use takes no picture; choose Texture, Bump or another first.");
+        return say(true,
+                   file.string() + ": the shader in use takes no picture; choose Texture, Bump or another first.");
     std::error_code error;
     scene::set_value(lab_.scene.look, *shader, *parameter, fs::absolute(file, error).string());
     say(false, parameter->label + ": " + file.filename().string());

@@ -79,7 +79,8 @@ std::vector<std::array<float, 3>> ramp_colours(const std::string& name) {
     std::vector<std::array<float, 3>> colours;
     for (int x = 0; x < image.width; ++x) {
         const std::uint8_t* c = image.pixel(x, image.height / 2);
-        colours.push_back({static_cast<float>(c[0]) / 255, static_cast<float>(c[1]) / 255, static_cast<float>(c[2]) / 255});
+        colours.push_back(
+            {static_cast<float>(c[0]) / 255, static_cast<float>(c[1]) / 255, static_cast<float>(c[2]) / 255});
     }
     return colours;
 }

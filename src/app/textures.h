@@ -19,13 +19,13 @@ void resolve_textures(scene::Look& look, const std::vector<scene::ShaderDeclarat
 void relate_textures(scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders,
                      const std::filesystem::path& folder);
 
-/// The parameter of a shader that a picture, dropped onto the window, is for: an environment for a panorama (.hdr), else
-/// the first texture of colours, heights or a ramp. None where the shader takes no picture.
+/// The parameter of a shader that a picture, dropped onto the window, is for: an environment for a panorama (.hdr),
+/// else the first texture of colours, heights or a ramp. None where the shader takes no picture.
 const scene::ShaderParameter* parameter_for_picture(const scene::ShaderDeclaration& shader,
                                                     const std::filesystem::path& picture);
 
-/// The colours of a ramp from left to right, sRGB, of a built-in texture or a picture's middle row; none when it cannot be
-/// read.
+/// The colours of a ramp from left to right, sRGB, of a built-in texture or a picture's middle row; none when it cannot
+/// be read.
 std::vector<std::array<float, 3>> ramp_colours(const std::string& name);
 
 /// Whether a file's name ends as those of pictures do that can be a texture.

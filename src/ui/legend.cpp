@@ -47,7 +47,8 @@ void heat_map(const Lab& lab, const scene::ShaderDeclaration& shader, ImVec2 at)
     for (int i = 0; i <= steps; ++i) {
         const float y = at.y + height * (1 - static_cast<float>(i) / steps);
         // So that 0 is not written as -1e-17.
-        const double value = low + (high - low) * i / steps, clean = std::abs(value) < 1e-9 * std::abs(high - low) ? 0 : value;
+        const double value = low + (high - low) * i / steps,
+                     clean = std::abs(value) < 1e-9 * std::abs(high - low) ? 0 : value;
         char number[32];
         std::snprintf(number, sizeof number, "%.3g", clean);
         list->AddLine({at.x + width, y}, {at.x + 1.3f * width, y}, text);

@@ -41,9 +41,9 @@ void divider_labels(const Lab& lab, ImVec2 corner, ImVec2 size) {
         for (const scene::ShaderDeclaration& shader : lab.shaders)
             if (shader.name == name)
                 text = shader.title;
-        const bool spheres = std::any_of(
-            lab.scene.simulation.colliders.begin(), lab.scene.simulation.colliders.end(),
-            [](const sim::Collider& collider) { return std::holds_alternative<sim::Sphere>(collider); });
+        const bool spheres =
+            std::any_of(lab.scene.simulation.colliders.begin(), lab.scene.simulation.colliders.end(),
+                        [](const sim::Collider& collider) { return std::holds_alternative<sim::Sphere>(collider); });
         return text + (spheres ? ", sphere " + std::to_string(latitude) + " x " + std::to_string(longitude) : "");
     };
     const scene::Look& look = lab.scene.look;
