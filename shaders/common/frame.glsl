@@ -7,6 +7,9 @@ layout(std140) uniform Frame {
     vec4 lights[2];     // xyz: m; w: intensity, as it arrives at 1 m
     vec4 ambient;       // x: light from everywhere, y: from over the left shoulder
     vec4 cloth_depth;   // x, y: where the cloth begins and ends, as distance from the eye in m
+    mat4 to_shadow;     // world to the first lamp's shadow map: place and depth, 0 to 1
+    vec4 shadow;        // x: 1 when that lamp casts a shadow, else 0; y: how far in front of a surface the map is asked
+                        // where light grazes it, in m, at 1 m from the lamp; z: width of a texel as a share of the map
 } frame;
 
 // From a point to the beholder, of length 1.

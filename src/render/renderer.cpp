@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/cloth_mesh.h"
 #include "render/collider_mesh.h"
 #include "render/projected.h"
 #include "render/shader_library.h"
+#include "render/shadow.h"
 #include "render/sorted_triangles.h"
 #include "render/texture_library.h"
 
@@ -22,6 +24,8 @@ struct FrameBlock {
     std::array<glm::vec4, 2> lights; ///< xyz in m, intensity
     glm::vec4 ambient;               ///< x: light from everywhere, y: from over the left shoulder
     glm::vec4 cloth_depth;           ///< x, y: distance from the eye in m at which the cloth begins and ends
+    glm::mat4 to_shadow;             ///< world to the shadow map
+    glm::vec4 shadow;                ///< x: 1 with a shadow; y: ShadowView::ahead; z: a texel's share of the map
 };
 
 /// Everything that the pictures rely on and others may have changed.
@@ -65,9 +69,12 @@ struct Renderer::Parts {
     TextureLibrary textures;
     ClothMesh cloth;
     SortedTriangles sorted;
-    SphereMesh sphere;
+    SphereMesh sphere, caster;                       ///< that is drawn, and that casts a shadow
     VertexArray no_vertices = VertexArray::create(); ///< for shaders that make their own
     Buffer frame = Buffer::create();
+    FrameBlock block; ///< what `frame` has while a picture is drawn
+    ShadowMap shadow_map;
+    std::optional<ShadowView> shadow; ///< that the first light casts in this picture
 
     void load() {
         for (const char* name : always_needed)
@@ -75,6 +82,9 @@ struct Renderer::Parts {
         shaders.surface(wireframe_shader);
     }
     void set_frame(const Scene& what, const Target& target, const ProjectedCloth& projected);
+    void set_shadow(const Scene& what);
+    void upload(const FrameBlock& values);
+    void cast_shadow(const Scene& what, const Surface& surface);
     void draw_background(const Options& options);
     void draw_part(const Scene& what, const Surface& surface, DrawReport& report);
     void use(const Program& program, const Options& options, const std::vector<Uniform>& uniforms);
@@ -88,7 +98,7 @@ struct Renderer::Parts {
 
 void Renderer::Parts::set_frame(const Scene& what, const Target& target, const ProjectedCloth& projected) {
     const float width = static_cast<float>(target.width()), height = static_cast<float>(target.height());
-    FrameBlock block{};
+    block = {};
     block.view = view_matrix(what.view);
     block.projection = projection_matrix(what.view, width / height);
     block.eye = glm::vec4(what.view.eye, 1);
@@ -97,9 +107,63 @@ void Renderer::Parts::set_frame(const Scene& what, const Target& target, const P
         block.lights[i] = glm::vec4(what.options.lights[i].position, what.options.lights[i].intensity);
     block.ambient = glm::vec4(what.options.ambient, what.options.fill, 0, 0);
     block.cloth_depth = glm::vec4(projected.nearest, projected.furthest, 0, 0);
+    if (shadow) {
+        block.to_shadow = clip_to_map() * shadow->projection * shadow->view;
+        block.shadow = glm::vec4(1, shadow->ahead, 1 / static_cast<float>(shadow_map.size()), 0);
+    }
+    upload(block);
+}
+
+void Renderer::Parts::upload(const FrameBlock& values) {
     glBindBuffer(GL_UNIFORM_BUFFER, frame.id());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+    glBufferData(GL_UNIFORM_BUFFER, sizeof values, &values, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, ShaderLibrary::frame_binding, frame.id());
+}
+
+/// Whether there is a shadow, and from where.
+void Renderer::Parts::set_shadow(const Scene& what) {
+    shadow.reset();
+    const Light& light = what.options.lights[0];
+    if (!what.options.shadow || !(light.intensity > 0) || !drawable(light.position))
+        return;
+    const auto colliders = what.options.show_colliders ? what.colliders : std::span<const sim::Collider>();
+    if (const auto box = shadow_casters(what.snapshot, cloth.drawn(), colliders))
+        shadow = shadow_view(light.position, *box, shadow_map.size());
+}
+
+/// Draws cloth and spheres as the light sees them, with the programs that draw them in the picture: these may move
+/// points. Springs alone cast no shadow.
+void Renderer::Parts::cast_shadow(const Scene& what, const Surface& surface) {
+    FrameBlock of_light = block;
+    of_light.view = shadow->view;
+    of_light.projection = shadow->projection;
+    of_light.eye = glm::vec4(what.options.lights[0].position, 1);
+    of_light.shadow = glm::vec4(0);
+    upload(of_light);
+    shadow_map.begin();
+    if (!surface.lines) {
+        use(shaders.surface(surface.shader), what.options, surface.uniforms);
+        cloth.draw_surface();
+    }
+    if (what.options.show_colliders) {
+        const Program& program = shaders.program("sphere");
+        program.use();
+        program.set("depth", 1.f);
+        // Within the sphere that is drawn, however coarse, lest it shade its own facets.
+        caster.set_lines(40, 40);
+        const auto within = [](int lines) {
+            return std::cos(std::numbers::pi_v<float> / static_cast<float>(std::max(3, lines)));
+        };
+        const float size = 0.98f * within(surface.sphere_lat_lines) * within(surface.sphere_lon_lines);
+        for (const sim::Collider& collider : what.colliders)
+            if (const auto* given = std::get_if<sim::Sphere>(&collider))
+                if (const auto drawn = drawable_sphere(*given)) {
+                    program.set("object", glm::vec4(glm::vec3(*drawn), size * drawn->w));
+                    caster.draw();
+                }
+    }
+    shadow_map.end();
+    upload(block);
 }
 
 void Renderer::Parts::draw_background(const Options& options) {
@@ -135,6 +199,7 @@ void Renderer::Parts::use(const Program& program, const Options& options, const 
         }
     }
     glActiveTexture(GL_TEXTURE0);
+    program.set("shadow_map", ShadowMap::unit);
     program.set("object", glm::vec4(0, 0, 0, 1));
     program.set("depth", 1.f);
     program.set("swap_sides", options.swap_sides ? 1 : 0);
@@ -197,6 +262,7 @@ void Renderer::Parts::draw_spheres(const Scene& what, const Surface& surface, Dr
         use(program, options, surface.uniforms);
     else
         program.use();
+    program.set("shadow_map", ShadowMap::unit);
     program.set("colour", linear(options.sphere_colour));
     program.set("swap_sides", 0);
     program.set("shade", 1.f);
@@ -231,6 +297,7 @@ void Renderer::Parts::draw_planes(const Scene& what, DrawReport& report) {
     program.use();
     glEnable(GL_BLEND);
     glBindVertexArray(no_vertices.id());
+    program.set("shadow_map", ShadowMap::unit);
     program.set("lines_only", 0);
     for (const sim::Collider& collider : what.colliders) {
         const auto* given = std::get_if<sim::Plane>(&collider);
@@ -298,6 +365,8 @@ void Renderer::reload_shaders() {
 
 /// One part of a split view, or the whole picture.
 void Renderer::Parts::draw_part(const Scene& what, const Surface& surface, DrawReport& report) {
+    if (shadow)
+        cast_shadow(what, surface);
     draw_background(what.options);
     const bool cloth_last = surface.translucent;
     if (!cloth_last)
@@ -338,6 +407,7 @@ DrawReport Renderer::draw(const Scene& what, Target& target) {
     set_state();
     glClearDepth(1);
     glClear(GL_DEPTH_BUFFER_BIT);
+    parts.set_shadow(what);
     parts.set_frame(what, target, projected);
     if (what.right) {
         const int divider =

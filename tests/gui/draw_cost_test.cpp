@@ -55,7 +55,13 @@ TEST_CASE("Measure what a draw costs on the CPU", "[.][draw-cost]") {
         });
         snapshot.capture = 1;
         const Cost again = cost_of([&] { studio.renderer.draw(scene, studio.target); });
-        std::cout << points << " x " << points << ": a new snapshot " << anew << ", the same again " << again << '\n';
+        scene.options.shadow = true;
+        const Cost shadow = cost_of([&] {
+            snapshot.capture = 0;
+            studio.renderer.draw(scene, studio.target);
+        });
+        std::cout << points << " x " << points << ": a new snapshot " << anew << ", with shadow " << shadow
+                  << ", the same again " << again << '\n';
         CHECK(studio.renderer.draw(scene, studio.target).cloth_triangles > 0);
     }
 }
