@@ -14,7 +14,7 @@ float shadow(vec3 position, vec3 to_light) {
     up *= inversesqrt(max(dot(up, up), 1e-30));
     if (dot(up, direction_to_eye(position)) < 0.0) up = -up;
     float cosine = dot(up, to_light);
-    float ahead = frame.shadow.y * distance(frame.lights[0].xyz, position) * sqrt(max(0.0, 1.0 - cosine * cosine));
+    float ahead = frame.shadow.y * distance(frame.lights[0].xyz, position) * sqrt(max(0.01, 1.0 - cosine * cosine));
     vec4 at = frame.to_shadow * vec4(position + ahead * up, 1.0);
     if (at.w <= 0.0) return 1.0;   // behind the lamp
     vec3 place = vec3(at.xy, min(at.z, at.w)) / at.w;
