@@ -12,15 +12,21 @@ out float surface_quantity;
 
 uniform vec4 object;   // xyz: m, where the mesh's origin is; w: its size, 1 for the cloth
 uniform float depth;   // as a share of the distance; above 1 for spheres: cloth that lies on them must hide them
+uniform bool swap_sides;   // the front is the side that the normals do not point to
 
 vec3 placed(vec3 point) { return object.xyz + object.w * point; }
+
+// Where the point is in a picture that the front shows upright: rows grow downwards, except where sides are swapped.
+vec2 picture_uv() { return vec2(uv.x, swap_sides ? uv.y : 1.0 - uv.y); }
+
+vec3 front_normal() { return swap_sides ? -normal : normal; }
 
 // Sets everything for a point at a place.
 void place(vec3 at, vec3 up) {
     world_position = at;
     world_normal = up;
     world_tangent = object.w * tangent;
-    surface_uv = uv;
+    surface_uv = picture_uv();
     surface_quantity = quantity;
     gl_Position = to_clip(at, depth);
 }
