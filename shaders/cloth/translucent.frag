@@ -9,7 +9,7 @@
 uniform vec3 tint;               //@ label="Colour" colour="#5CC2B0" help="Colour of both sides."
 uniform float opacity = 0.75;    //@ label="Opacity" min=0 max=1 help="Share of what is behind that one layer hides."
 uniform float through = 0.5;     //@ label="Light through" min=0 max=1 help="Share of a lamp's light on the other side that comes through."
-uniform float k_n = 300.0;       //@ label="Normal k_n" min=1 max=10000 log help="How much steeper the normals take the heights."
+uniform float k_n = 150.0;       //@ label="Normal k_n" min=1 max=10000 log help="How much steeper the normals take the heights."
 
 float layered(vec2 uv) {
     return texture(height_map, bent(uv, texture(through_map, uv).r, texture(through_map, uv + 0.5).r)).r;
