@@ -10,7 +10,7 @@ using namespace clothlab::test;
 using nlohmann::json;
 
 TEST_CASE("bench --json prints one object with the machine, the rows and a summary, and its progress elsewhere",
-          "[program][threads]") {
+          "[program]") {
     const Finished finished = clothlab::test::clothlab({"bench", "--quick", "--sizes", "8", "--json"});
     INFO(finished.err);
     REQUIRE(finished.status == 0);
