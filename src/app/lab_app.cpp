@@ -42,7 +42,8 @@ LabApp::LabApp(const LabOptions& options, scene::Scene scene, fs::path file)
     : window_(options.window, options.width, options.height, "clothlab"),
       imgui_(window_, layout_file(options), data_path("imgui.ini"), options.scale), renderer_(data_path("shaders")),
       // On the screen smooth motion matters more than smooth edges; a picture has time.
-      viewport_(1, 1, options.window == Window::Kind::desktop && render::software_rendering() ? 1 : 4) {
+      automatic_samples_(options.window == Window::Kind::desktop && render::software_rendering() ? 1 : 4),
+      viewport_(1, 1, automatic_samples_) {
     if (options.window == Window::Kind::offscreen)
         whole_.emplace(options.width, options.height, 1);
     lab_.open.fill(true);
@@ -270,10 +271,11 @@ void LabApp::draw_viewport() {
     if (lab_.viewport_width < 1 || lab_.viewport_height < 1)
         return; // the panel has not been drawn yet
     Shown now{lab_.snapshot, lab_.scene, lab_.viewport_width, lab_.viewport_height};
-    if (now == shown_ && lab_.viewport_texture != 0)
+    if (now == shown_ && lab_.viewport_texture != 0 && !textures_changed())
         return;
-    viewport_.resize(now.width, now.height);
     try {
+        viewport_.set_samples(samples_of(lab_.scene.look.multisampling, automatic_samples_));
+        viewport_.resize(now.width, now.height);
         draw_report_ = renderer_.draw(
             to_render(lab_.scene, lab_.shaders, lab_.snapshot.get(), static_cast<double>(now.width) / now.height),
             viewport_);
@@ -284,6 +286,23 @@ void LabApp::draw_viewport() {
     }
     shown_ = std::move(now);
     lab_.viewport_texture = viewport_.texture();
+    tell_textures();
+}
+
+bool LabApp::textures_changed() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_look_at_textures_)
+        return false;
+    next_look_at_textures_ = now + std::chrono::milliseconds(500);
+    return renderer_.refresh_textures();
+}
+
+void LabApp::tell_textures() {
+    std::vector<std::string> errors = renderer_.texture_errors();
+    for (const std::string& error : errors)
+        if (std::find(texture_errors_.begin(), texture_errors_.end(), error) == texture_errors_.end())
+            say(true, error);
+    texture_errors_ = std::move(errors);
 }
 
 void LabApp::save(const fs::path& file) {

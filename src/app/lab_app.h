@@ -60,6 +60,8 @@ private:
     void pass_on_edits();
     void carry_out_requests();
     void draw_viewport();
+    bool textures_changed();
+    void tell_textures();
     void save(const std::filesystem::path& file);
     void screenshot();
     void poll_file_dialog();
@@ -69,6 +71,7 @@ private:
     Window window_;
     ImGuiLayer imgui_;
     render::Renderer renderer_;
+    int automatic_samples_;
     render::Target viewport_;
     std::optional<render::Target> whole_; ///< the window's picture, where framebuffer 0 holds none
     SimulationThread simulation_;
@@ -89,6 +92,8 @@ private:
         bool operator==(const Shown&) const = default;
     };
     Shown shown_;
+    std::chrono::steady_clock::time_point next_look_at_textures_{};
+    std::vector<std::string> texture_errors_; ///< that the user has been told of
     render::DrawReport draw_report_;
     std::unique_ptr<FileDialog> dialog_;
     ui::BrowseForTexture texture_wanted_; ///< what the dialog is for

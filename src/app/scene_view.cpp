@@ -55,6 +55,22 @@ render::View to_view(const scene::Camera& camera, double aspect) {
     return view;
 }
 
+int samples_of(scene::Multisampling choice, int automatic) {
+    switch (choice) {
+    case scene::Multisampling::automatic:
+        break;
+    case scene::Multisampling::off:
+        return 1;
+    case scene::Multisampling::two:
+        return 2;
+    case scene::Multisampling::four:
+        return 4;
+    case scene::Multisampling::eight:
+        return 8;
+    }
+    return automatic;
+}
+
 sim::PointQuantity quantity_of(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders) {
     const scene::ShaderDeclaration* shader = find(shaders, look.shader);
     const auto quantity = shader ? sim::find_point_quantity(shader->quantity) : std::nullopt;

@@ -12,6 +12,8 @@ render::View to_view(const scene::Camera& camera, double aspect);
 /// not in the list has no parameters.
 render::Surface to_surface(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders,
                            const std::string& shader);
+/// Samples per pixel; `automatic` is what that choice stands for.
+int samples_of(scene::Multisampling choice, int automatic);
 /// The point quantity that a look's shader colours by.
 sim::PointQuantity quantity_of(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders);
 /// `scene` and `snapshot` must outlive the result.

@@ -14,10 +14,19 @@ Target::Target(int width, int height, int samples) {
     colour_ = Texture::create();
     multisampled_ = Framebuffer::create();
     resolved_ = Framebuffer::create();
+    set_samples(samples);
+    resize(width, height);
+}
+
+void Target::set_samples(int samples) {
     GLint available = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &available);
-    samples_ = std::clamp(samples, 1, std::max(1, available));
-    resize(width, height);
+    samples = std::clamp(samples, 1, std::max(1, available));
+    if (samples == samples_)
+        return;
+    samples_ = samples;
+    if (width_ > 0)
+        allocate();
 }
 
 void Target::resize(int width, int height) {

@@ -16,6 +16,8 @@ public:
     /// sizes below 1 are raised to 1, those above the driver's limit lowered to it. Throws std::runtime_error when the
     /// driver has not the memory.
     void resize(int width, int height);
+    /// Changes the number of samples, like resize(); the driver may have fewer.
+    void set_samples(int samples);
     int width() const { return width_; }
     int height() const { return height_; }
     int samples() const { return samples_; }
