@@ -39,8 +39,8 @@ struct SplitView {
     bool on = false;
     double position = 0.5; ///< of the divider, as a share of the picture's width
     std::string shader = "wireframe";
-    int sphere_latitude_lines = 16;
-    int sphere_longitude_lines = 16;
+    int sphere_latitude_lines = 40;
+    int sphere_longitude_lines = 40;
     bool operator==(const SplitView&) const = default;
 };
 

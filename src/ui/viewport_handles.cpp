@@ -36,17 +36,18 @@ void divider_handle(Lab& lab, ImVec2 corner, ImVec2 size) {
 
 /// Names the two parts at the bottom of the picture, one on each side of the divider.
 void divider_labels(const Lab& lab, ImVec2 corner, ImVec2 size) {
+    const scene::Look& look = lab.scene.look;
+    const bool other_spheres = look.sphere_latitude_lines != look.split.sphere_latitude_lines ||
+                               look.sphere_longitude_lines != look.split.sphere_longitude_lines;
     const auto title = [&](const std::string& name, int latitude, int longitude) {
         std::string text = name;
         for (const scene::ShaderDeclaration& shader : lab.shaders)
             if (shader.name == name)
                 text = shader.title;
-        const bool spheres =
-            std::any_of(lab.scene.simulation.colliders.begin(), lab.scene.simulation.colliders.end(),
-                        [](const sim::Collider& collider) { return std::holds_alternative<sim::Sphere>(collider); });
-        return text + (spheres ? ", sphere " + std::to_string(latitude) + " x " + std::to_string(longitude) : "");
+        if (other_spheres)
+            text += ", sphere " + std::to_string(latitude) + " x " + std::to_string(longitude);
+        return text;
     };
-    const scene::Look& look = lab.scene.look;
     const float x = corner.x + size.x * static_cast<float>(look.split.position), pad = ImGui::GetFontSize();
     const float y = corner.y + size.y - 2 * ImGui::GetTextLineHeight();
     const std::string left = title(look.shader, look.sphere_latitude_lines, look.sphere_longitude_lines);
