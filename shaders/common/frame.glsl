@@ -2,7 +2,7 @@
 layout(std140) uniform Frame {
     mat4 view;          // world to camera
     mat4 projection;    // camera to clip space
-    vec4 eye;           // xyz: m; w: 1
+    vec4 eye;           // xyz: m; w: 1. Orthographic: the direction to the eye; w: 0
     vec4 viewport;      // width, height in px, and their inverses
     vec4 lights[2];     // xyz: m; w: intensity, as it arrives at 1 m
     vec4 ambient;       // x: light from everywhere, y: from over the left shoulder
@@ -15,9 +15,18 @@ layout(std140) uniform Frame {
 // From a point to the beholder, of length 1.
 vec3 direction_to_eye(vec3 world) { return normalize(frame.eye.xyz - frame.eye.w * world); }
 
+bool is_orthographic() { return frame.projection[3][3] == 1.0; }
+
 // A point's place in the picture, with its depth moved by a share of its distance: below 1 is nearer to the eye.
 vec4 to_clip(vec3 world, float depth) {
     vec4 camera = frame.view * vec4(world, 1.0);
-    camera.xyz *= depth;
+    // Orthographic pictures have no such distance; one of 2.4 times the half height is a field of view of 45 degrees.
+    if (is_orthographic()) camera.z += (1.0 - depth) * 2.4 / frame.projection[1][1];
+    else camera.xyz *= depth;
     return frame.projection * camera;
+}
+
+// The distance in m of a point in clip space from the eye's plane.
+float depth_of(vec4 clip) {
+    return is_orthographic() ? (frame.projection[3][2] - clip.z) / frame.projection[2][2] : clip.w;
 }

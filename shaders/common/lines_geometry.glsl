@@ -37,7 +37,7 @@ void main() {
     for (int i = 0; i < 4; ++i) {
         vec4 end = i < 2 ? a : b;
         float side = (i & 1) == 0 ? 0.5 : -0.5;
-        distance_from_eye = end.w;
+        distance_from_eye = depth_of(end);
         line_quantity = i < 2 ? of_a : of_b;
         gl_Position = vec4(end.xy + left * side * width / to_px * end.w, end.zw);
         EmitVertex();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/camera.h"
+
 namespace clothlab::app {
 namespace {
 
@@ -49,6 +51,13 @@ render::View to_view(const scene::Camera& camera, double aspect) {
     constexpr double half_degree = std::numbers::pi / 360;
     const double half_height = std::tan(camera.fov * half_degree) / std::min(aspect, 1.0);
     view.fov_y_degrees = static_cast<float>(std::atan(half_height) / half_degree);
+    if (camera.projection == scene::Projection::orthographic) {
+        view.projection = render::Projection::orthographic;
+        view.height = static_cast<float>(scene::height_at_target(camera) / std::min(aspect, 1.0));
+        view.far_plane = static_cast<float>(20 * std::max(camera.distance, 1.0));
+        view.near_plane = -view.far_plane; // nothing is too near to be seen
+        return view;
+    }
     // Depth precision where it is needed: a cloth seen from 100 m does not need the first centimetres.
     view.near_plane = static_cast<float>(std::clamp(camera.distance / 100, 0.001, 1.0));
     view.far_plane = view.near_plane * 20000;

@@ -101,7 +101,10 @@ std::optional<PlanePatch> plane_patch(const sim::Plane& plane, const View& view)
     const auto height = [&](const glm::vec3& p) { return glm::dot(p - patch.origin, patch.normal); };
     patch.centre = view.target - height(view.target) * patch.normal;
     patch.radius = std::clamp(5 * glm::length(view.eye - view.target), 0.5f, 0.8f * view.far_plane);
-    patch.see_through = height(view.eye) * height(view.target) < 0;
+    // Whether the plane hides what stands on it.
+    const glm::vec4 eye = seen_from(view);
+    const float eye_height = eye.w == 0 ? glm::dot(glm::vec3(eye), patch.normal) : height(view.eye);
+    patch.see_through = eye_height * height(view.target) < 0;
     return patch;
 }
 

@@ -101,7 +101,7 @@ void Renderer::Parts::set_frame(const Scene& what, const Target& target, const P
     block = {};
     block.view = view_matrix(what.view);
     block.projection = projection_matrix(what.view, width / height);
-    block.eye = glm::vec4(what.view.eye, 1);
+    block.eye = seen_from(what.view);
     block.viewport = glm::vec4(width, height, 1 / width, 1 / height);
     for (std::size_t i = 0; i < block.lights.size(); ++i)
         block.lights[i] = glm::vec4(what.options.lights[i].position, what.options.lights[i].intensity);

@@ -42,10 +42,19 @@ glm::mat4 view_matrix(const View& view) {
 }
 
 glm::mat4 projection_matrix(const View& view, float aspect) {
+    if (view.projection == Projection::orthographic) {
+        const float half = std::max(view.height, 1e-6f) / 2, half_width = half * std::max(aspect, 1e-4f);
+        const float furthest = std::max(view.far_plane, view.near_plane + 1e-3f);
+        return glm::ortho(-half_width, half_width, -half, half, view.near_plane, furthest);
+    }
     const float near_plane = std::max(view.near_plane, 1e-6f);
     const float far_plane = std::max(view.far_plane, 2 * near_plane);
     const float fov = glm::radians(std::clamp(view.fov_y_degrees, 1.f, 170.f));
     return glm::perspective(fov, std::max(aspect, 1e-4f), near_plane, far_plane);
+}
+
+glm::vec4 seen_from(const View& view) {
+    return view.projection == Projection::perspective ? glm::vec4(view.eye, 1) : glm::vec4(axes(view).back, 0);
 }
 
 bool drawable(const glm::vec3& p) {

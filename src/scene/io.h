@@ -37,6 +37,8 @@ void check(const Scene& scene, const std::string& source);
 
 /// A camera as JSON text with the keys of a scene's "camera", for files and the clipboard. Throws SceneError.
 Camera read_camera(std::string_view text, const std::string& source);
+/// The text that read_camera reads back to the last bit.
+std::string write_camera(const Camera& camera);
 
 /// No scene or camera file is larger, in bytes.
 inline constexpr std::uintmax_t max_text_size = 64u << 20;

@@ -2,6 +2,7 @@
 // and benchmarks share.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,13 +12,17 @@
 
 namespace clothlab::scene {
 
+/// Perspective: what is further away is smaller. Orthographic: sizes can be compared, parallel lines stay parallel.
+enum class Projection : std::uint8_t { perspective, orthographic };
+
 /// An orbit camera: it looks at a target from a distance, turned by yaw about the vertical and by pitch above it.
 struct Camera {
-    sim::Vec3 target{0.5, 0.6, 0.5}; ///< m
-    double distance = 2.2;           ///< m
-    double yaw = 30;                 ///< degrees; 0 looks from +z, 90 from +x
-    double pitch = 20;               ///< degrees above the horizon
-    double fov = 45;                 ///< degrees, across the shorter side of the picture
+    sim::Vec3 target{0.5, 0.6, 0.5};                 ///< m
+    double distance = 2.2;                           ///< m
+    double yaw = 30;                                 ///< degrees; 0 looks from +z, 90 from +x
+    double pitch = 20;                               ///< degrees above the horizon
+    double fov = 45;                                 ///< degrees, across the shorter side of the picture
+    Projection projection = Projection::perspective; ///< both show what is at the target in the same size
     bool operator==(const Camera&) const = default;
 };
 

@@ -124,6 +124,19 @@ std::string write_scene(const Scene& scene) {
     return out.str();
 }
 
+std::string write_camera(const Camera& camera) {
+    Scene scene;
+    scene.camera = camera;
+    Json json;
+    for (const Field& f : fields())
+        if (f.section() == "camera")
+            json[std::string(f.name())] = value_of(f, scene);
+    std::ostringstream out;
+    write(out, json, 0);
+    out << "\n";
+    return out.str();
+}
+
 std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max_size) {
     std::error_code error;
     const std::string name = file.string();

@@ -70,7 +70,8 @@ Projected project(const scene::Camera& camera, const sim::Vec3& point, ImVec2 co
     const auto dot = [](const sim::Vec3& a, const sim::Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
     const sim::Vec3 d{point.x - f.eye.x, point.y - f.eye.y, point.z - f.eye.z};
     const sim::Vec3 to_target{camera.target.x - f.eye.x, camera.target.y - f.eye.y, camera.target.z - f.eye.z};
-    const double depth = dot(d, to_target) / std::max(camera.distance, 1e-9);
+    const bool orthographic = camera.projection == scene::Projection::orthographic;
+    const double depth = orthographic ? camera.distance : dot(d, to_target) / std::max(camera.distance, 1e-9);
     const double shorter = static_cast<double>(std::max(std::min(size.x, size.y), 1.f));
     Projected p;
     p.metres = 2 * depth * std::tan(camera.fov * 0.00872664625997) / shorter;

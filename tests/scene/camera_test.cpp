@@ -3,6 +3,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 
+#include "scene/camera.h"
 #include "scene/io.h"
 #include "support/effort.h"
 #include "support/sheet.h"
@@ -21,8 +22,17 @@ double from_the_middle(const scene::Camera& camera, sim::Vec3 point) {
     const scene::CameraFrame f = scene::frame(camera);
     const sim::Vec3 d = minus(point, f.eye);
     const double depth = -dot(d, cross(f.right, f.up));
-    const double half = depth * std::tan(camera.fov / 2 * std::acos(-1.0) / 180);
-    return depth > 0 ? std::max(std::abs(dot(d, f.right)), std::abs(dot(d, f.up))) / half : HUGE_VAL;
+    const bool orthographic = camera.projection == scene::Projection::orthographic;
+    const double half = (orthographic ? camera.distance : depth) * std::tan(camera.fov / 2 * std::acos(-1.0) / 180);
+    return depth > 0 || orthographic ? std::max(std::abs(dot(d, f.right)), std::abs(dot(d, f.up))) / half : HUGE_VAL;
+}
+
+scene::Camera random_camera(sim::SplitMix64& random) {
+    scene::Camera camera{uniform_point(random, -3, 3), uniform(random, 0.1, 50), uniform(random, -720, 720),
+                         uniform(random, -90, 90), uniform(random, 1, 170)};
+    if (uniform(random, 0, 1) < 0.5)
+        camera.projection = scene::Projection::orthographic;
+    return camera;
 }
 
 std::string error_of(const std::string& text) {
@@ -99,6 +109,56 @@ TEST_CASE("The fitting camera sees the whole cloth, where it may fall to, and th
     }
 }
 
+TEST_CASE("A fitted camera looks from where it did and sees all points, the outermost near the edge") {
+    sim::SplitMix64 random(9);
+    for (int i = 0; i < attempts(300); ++i) {
+        const scene::Camera before = random_camera(random);
+        std::vector<float> points;
+        for (int k = 0; k < 300; ++k)
+            points.push_back(static_cast<float>(uniform(random, -1, 2)));
+        points.insert(points.end(), {std::nanf(""), 0, 0, 0, 1e9f, 0}); // a cloth of which some blew up
+        const scene::Camera camera = scene::fitted(before, points);
+        REQUIRE(camera.yaw == before.yaw);
+        REQUIRE(camera.pitch == before.pitch);
+        REQUIRE(camera.fov == before.fov);
+        REQUIRE(camera.projection == before.projection);
+        double outermost = 0;
+        for (std::size_t k = 0; k < 300; k += 3)
+            outermost = std::max(
+                outermost, from_the_middle(camera, {static_cast<double>(points[k]), static_cast<double>(points[k + 1]),
+                                                    static_cast<double>(points[k + 2])}));
+        REQUIRE(outermost < 1);
+        // A wide lens magnifies what is nearest, and with it the margin.
+        REQUIRE((outermost > 0.8 || before.fov > 60));
+    }
+    const std::vector<float> lost{std::nanf(""), 0, 0};
+    REQUIRE(scene::fitted(scene::Camera{.yaw = 4}, lost) == scene::Camera{.yaw = 4});
+}
+
+TEST_CASE("A camera on its way is exactly at both ends, and turns the short way round") {
+    sim::SplitMix64 random(11);
+    for (int i = 0; i < attempts(300); ++i) {
+        const scene::Camera from = random_camera(random), to = random_camera(random);
+        REQUIRE(scene::between(from, to, 1) == to);
+        scene::Camera start = scene::between(from, to, 0);
+        REQUIRE(start.projection == to.projection);
+        start.projection = from.projection;
+        REQUIRE(start == from);
+        const scene::Camera half = scene::between(from, to, 0.5);
+        REQUIRE(std::abs(half.yaw - from.yaw) <= 90);
+        REQUIRE(std::abs(std::remainder(half.yaw - to.yaw, 360.0)) <= 90 + 1e-9);
+        REQUIRE(std::abs(half.distance * half.distance - from.distance * to.distance) < 1e-9);
+    }
+}
+
+TEST_CASE("A written camera is read back to the last bit") {
+    sim::SplitMix64 random(13);
+    for (int i = 0; i < attempts(300); ++i) {
+        const scene::Camera camera = random_camera(random);
+        REQUIRE(scene::read_camera(scene::write_camera(camera), "camera.json") == camera);
+    }
+}
+
 TEST_CASE("A scene is shown by its own camera, and without one by the fitting one") {
     scene::Scene scene;
     REQUIRE(scene::camera_of(scene) == scene::fitting_camera(scene.simulation));
@@ -110,6 +170,8 @@ TEST_CASE("A camera file has the keys of a scene's camera, what it leaves out ha
     const scene::Camera camera =
         scene::read_camera(R"({"target": [1, 2, 3], "distance": 4, "yaw": -5, "pitch": 6, "fov": 70})", "camera.json");
     REQUIRE(camera == scene::Camera{{1, 2, 3}, 4, -5, 6, 70});
+    REQUIRE(scene::read_camera(R"({"projection": "orthographic"})", "camera.json") ==
+            scene::Camera{.projection = scene::Projection::orthographic});
     REQUIRE(scene::read_camera("{}", "camera.json") == scene::Camera{});
     REQUIRE(scene::read_camera(R"({"yaw": 1})", "camera.json") == scene::Camera{.yaw = 1});
 }
@@ -119,6 +181,7 @@ TEST_CASE("A bad camera file is refused with its place") {
     REQUIRE(error_of("{\"fov\": 180}").find("from 1 to 170") != std::string::npos);
     REQUIRE(error_of("{\"pitch\": 91}").find("from -90 to 90") != std::string::npos);
     REQUIRE(error_of("{\"jaw\": 1}").find("did you mean \"yaw\"?") != std::string::npos);
+    REQUIRE(error_of("{\"projection\": \"oblique\"}").find("perspective") != std::string::npos);
     REQUIRE(error_of("[]").find("an object") != std::string::npos);
     REQUIRE(error_of("").find("camera.json") == 0);
     REQUIRE(error_of("{\"target\": 1}").find("three numbers") != std::string::npos);

@@ -112,10 +112,10 @@ TEST_CASE("A scene that differs from the default in every member is read as it w
                           pair(camera, camera0), pair(look, look0)));
     }
     {
-        const auto& [target, distance, yaw, pitch, fov] = *scene.camera;
+        const auto& [target, distance, yaw, pitch, fov, projection] = *scene.camera;
         const scene::Camera c;
         REQUIRE(different(pair(target, c.target), pair(distance, c.distance), pair(yaw, c.yaw), pair(pitch, c.pitch),
-                          pair(fov, c.fov)));
+                          pair(fov, c.fov), pair(projection, c.projection)));
     }
     {
         const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = scene.look;
