@@ -21,7 +21,9 @@ struct Layer {
 
 /// The first that a file lies in is its layer.
 const std::vector<Layer>& layers() {
-    static const Names gui{"imgui", "implot", "ImGuizmo", "TextEditor", "GLFW/", "glad/", "portable_file_dialogs.h"};
+    // With what POSIX has for running ffmpeg.
+    static const Names gui{"imgui",   "implot",  "ImGuizmo", "TextEditor", "GLFW/", "glad/", "portable_file_dialogs.h",
+                           "fcntl.h", "spawn.h", "sys/",     "unistd.h"};
     static const std::vector<Layer> list{
         {"sim/", {"sim/"}, {"Eigen/", "hwy/"}},
         {"scene/", {"scene/", "sim/"}, {"nlohmann/"}},

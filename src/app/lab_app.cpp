@@ -4,7 +4,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <type_traits>
 
 #include "app/core/data_folder.h"
@@ -14,6 +13,7 @@
 #include "app/textures.h"
 #include "render/procedural.h"
 #include "scene/io.h"
+#include "ui/camera.h"
 
 namespace clothlab::app {
 namespace fs = std::filesystem;
@@ -68,7 +68,7 @@ LabApp::~LabApp() = default;
 void LabApp::run() {
     // Paused and untouched, the lab rests: a few frames a second keep its state fresh.
     for (;;) {
-        const bool busy = lab_.playing || ImGui::IsAnyItemActive() || dialog_;
+        const bool busy = lab_.playing || lab_.flight || pictures_.recording() || ImGui::IsAnyItemActive() || dialog_;
         if (!frame(busy ? 0 : 0.05))
             return;
     }
@@ -78,12 +78,13 @@ bool LabApp::frame(double wait_seconds) {
     window_.poll(wait_seconds);
     if (window_.should_close() || quit_)
         return false;
-    if (window_.minimised()) {
-        window_.poll(0.05);
+    take_published();
+    pictures_.update();
+    if (window_.minimised()) { // a recording goes on
+        window_.poll(pictures_.recording() ? 0.001 : 0.05);
         return true;
     }
     poll_file_dialog();
-    take_published();
     lab_.can_undo = history_.can_undo();
     lab_.can_redo = history_.can_redo();
     imgui_.begin_frame();
@@ -102,9 +103,20 @@ bool LabApp::frame(double wait_seconds) {
     imgui_.end_frame(framebuffer);
     if (whole_)
         whole_->resolve();
+    if (pictures_.wants_window())
+        pictures_.take_window(whole_ ? whole_->read() : read_window());
     window_.swap();
     set_title();
     return !quit_;
+}
+
+render::Image LabApp::read_window() const {
+    int width = 0, height = 0;
+    window_.framebuffer_size(width, height);
+    render::Image image = render::read_framebuffer(0, width, height);
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+        image.rgba[i] = 255; // windows need no alpha and may have any
+    return image;
 }
 
 void LabApp::take_published() {
@@ -122,7 +134,8 @@ void LabApp::take_published() {
         return;
     tell_trouble(lab_.snapshot->diagnostics);
     // Nobody looks at what a hidden panel would show, and it costs as much as some hundred steps.
-    const bool watched = lab_.report[static_cast<std::size_t>(ui::PanelId::stability)].drawn;
+    // A recording rests after each frame, and would wait for it each time.
+    const bool watched = lab_.report[static_cast<std::size_t>(ui::PanelId::stability)].drawn && !pictures_.recording();
     if (watched != watching_stability_)
         simulation_.watch_stability(watched);
     watching_stability_ = watched;
@@ -221,6 +234,8 @@ void LabApp::carry_out_requests() {
         lab_.scene = std::move(*scene);
     };
     for (ui::Request& request : requests) {
+        if (pictures_.handle(request))
+            continue;
         std::visit(
             [&](auto& r) {
                 using R = std::remove_reference_t<decltype(r)>;
@@ -234,8 +249,6 @@ void LabApp::carry_out_requests() {
                 else if constexpr (std::is_same_v<R, ui::BrowseForTexture>)
                     dialog_ = std::make_unique<FileDialog>(FileDialog::Purpose::texture, lab_.file),
                     texture_wanted_ = r;
-                else if constexpr (std::is_same_v<R, ui::Screenshot>)
-                    screenshot();
                 else if constexpr (std::is_same_v<R, ui::Play>)
                     simulation_.play(r.on);
                 else if constexpr (std::is_same_v<R, ui::StepFrame>)
@@ -258,10 +271,11 @@ void LabApp::carry_out_requests() {
                 else if constexpr (std::is_same_v<R, ui::ResetLayout>) {
                     lab_.open.fill(true);
                     imgui_.reset_layout();
-                } else {
-                    static_assert(std::is_same_v<R, ui::Quit>);
+                } else if constexpr (std::is_same_v<R, ui::Quit>)
                     quit_ = true;
-                }
+                else
+                    static_assert(std::is_same_v<R, ui::TakePicture> || std::is_same_v<R, ui::Record> ||
+                                  std::is_same_v<R, ui::EndRecording>); // are for pictures_
             },
             request);
     }
@@ -318,24 +332,6 @@ void LabApp::save(const fs::path& file) {
     }
 }
 
-void LabApp::screenshot() {
-    for (int i = 1; i < 10000; ++i) {
-        char name[40];
-        std::snprintf(name, sizeof name, "clothlab-%04d.png", i);
-        std::error_code error;
-        const fs::path file = fs::current_path(error) / name;
-        if (fs::exists(file, error))
-            continue;
-        try {
-            render::write_png(viewport_.read(), file);
-            say(false, "The viewport was saved as " + file.string());
-        } catch (const std::exception& e) {
-            say(true, e.what());
-        }
-        return;
-    }
-}
-
 void LabApp::poll_file_dialog() {
     if (!dialog_ || !dialog_->ready())
         return;
@@ -366,6 +362,7 @@ void LabApp::show_frame(int frame_number) {
     simulation_.finish();
     // Panels take a few frames to settle: docking, tables and scroll bars learn their sizes by being drawn. What they
     // ask the simulation for, as the stability margin once its panel is seen, is waited for.
+    ui::finish_flight(lab_);
     for (int i = 0; i < 4; ++i) {
         frame();
         simulation_.finish();

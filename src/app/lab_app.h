@@ -10,6 +10,7 @@
 #include "app/core/history.h"
 #include "app/core/simulation_thread.h"
 #include "app/gui/imgui_layer.h"
+#include "app/pictures.h"
 #include "app/window.h"
 #include "render/renderer.h"
 #include "ui/lab.h"
@@ -54,6 +55,7 @@ public:
 
 private:
     void set_scene(scene::Scene scene, std::filesystem::path file);
+    render::Image read_window() const;
     void take_published();
     void tell_legend();
     void tell_trouble(const sim::Diagnostics& diagnostics);
@@ -63,7 +65,6 @@ private:
     bool textures_changed();
     void tell_textures();
     void save(const std::filesystem::path& file);
-    void screenshot();
     void poll_file_dialog();
     void set_title();
     void say(bool error, std::string text) { lab_.messages.push_back({error, std::move(text)}); }
@@ -96,6 +97,7 @@ private:
     std::vector<std::string> texture_errors_; ///< that the user has been told of
     render::DrawReport draw_report_;
     std::unique_ptr<FileDialog> dialog_;
+    Pictures pictures_{renderer_, simulation_, lab_};
     ui::BrowseForTexture texture_wanted_; ///< what the dialog is for
     bool quit_ = false;
 };

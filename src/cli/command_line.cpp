@@ -64,7 +64,25 @@ void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiC
     render->add_option("--shader", a.shader, "How the cloth is drawn (clothlab list shaders)");
     render->add_option("--camera", a.camera, "JSON file with the keys of a scene's camera");
     render->add_flag("--ui", a.ui, "Draw the whole lab, with its panels");
-    render->add_option("-o,--output", a.output, "FILE.png or FILE.mp4")->required();
+    render->add_flag("--transparent", a.transparent, "No background in PNG pictures");
+    render->add_option("--from", a.from, "The first frame of a film or a sequence (default: 0)")
+        ->check(CLI::NonNegativeNumber);
+    render
+        ->add_option(
+            "--every", a.every,
+            "Simulated frames from one picture to the next (default: 1 in a sequence; in a film as many as show "
+            "it at the scene's own pace)")
+        ->check(CLI::PositiveNumber);
+    render
+        ->add_option(
+            "--fps", a.fps,
+            "Pictures per second of a film (default: about 30). Without --every as near to it as whole frames at "
+            "the scene's own pace allow")
+        ->check(CLI::Range(0.1, 1000.0));
+    render
+        ->add_option("-o,--output", a.output,
+                     "FILE.png; NAME-%04d.png for a sequence, with the numbers 0, 1, 2 ...; FILE.mp4 for a film")
+        ->required();
     render->final_callback([&] {
         if (!gui.render)
             throw std::runtime_error("this clothlab was built without its GUI and cannot draw");

@@ -32,7 +32,11 @@ struct RenderArguments {
     std::string shader; ///< empty: as the scene says
     std::string camera; ///< file; empty: as the scene says
     bool ui = false;    ///< the whole lab, not the viewport alone
-    std::string output; ///< .png or .mp4
+    std::string output; ///< .png, .png with a place for a number, or .mp4
+    bool transparent = false;
+    int from = 0;              ///< the first frame of a film or a sequence; frame is the last
+    std::optional<int> every;  ///< simulated frames from one picture to the next
+    std::optional<double> fps; ///< pictures per second of film
 };
 
 struct RunArguments {

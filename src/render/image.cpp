@@ -117,6 +117,24 @@ float srgb_from_linear(float linear) {
     return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
+Image transparent(const Image& over_black, const Image& over_white) {
+    if (over_black.width != over_white.width || over_black.height != over_white.height)
+        throw std::runtime_error("the pictures over black and over white are not of one size");
+    Image image = over_black;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        // What a background adds is what shines through. Where the channels do not agree, as with colours that were
+        // blended in linear values, the least: no colour then has to be brighter than white.
+        int through = 255;
+        for (std::size_t k = i; k < i + 3; ++k)
+            through = std::min(through, std::max(0, over_white.rgba[k] - over_black.rgba[k]));
+        const int alpha = 255 - through;
+        image.rgba[i + 3] = static_cast<std::uint8_t>(alpha);
+        for (std::size_t k = i; k < i + 3 && alpha > 0; ++k)
+            image.rgba[k] = static_cast<std::uint8_t>(std::min(255, (255 * over_black.rgba[k] + alpha / 2) / alpha));
+    }
+    return image;
+}
+
 double difference(const Image& a, const Image& b) {
     const Cells cells_a = averaged(a), cells_b = averaged(b);
     double sum = 0;

@@ -51,6 +51,11 @@ void write_png(const Image& image, const std::filesystem::path& path);
 /// Reads a PNG (or another format that PictureFile knows). Throws std::runtime_error with the path and the reason.
 Image read_png(const std::filesystem::path& path);
 
+/// The picture that looks like `over_black` on black and like `over_white` on white, by its alpha: what is not drawn
+/// has alpha 0, and at an edge that covers part of a pixel the colour is the edge's own, with no dark rim. Both of one
+/// size, or std::runtime_error is thrown.
+Image transparent(const Image& over_black, const Image& over_white);
+
 /// How different two pictures look, 0 (the same) to 1 (black and white): both are averaged down to 64 x 36 cells, and
 /// the absolute differences of red, green and blue averaged. Sizes may differ; an empty picture is black.
 double difference(const Image& a, const Image& b);

@@ -7,6 +7,27 @@
 
 namespace clothlab::render {
 
+Image read_framebuffer(GLuint framebuffer, int width, int height) {
+    GLint before = 0, alignment = 4, pack_buffer = 0;
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
+    glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
+    glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &pack_buffer);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    const std::size_t stride = static_cast<std::size_t>(width) * 4, rows = static_cast<std::size_t>(height);
+    std::vector<std::uint8_t> bottom_up(stride * rows);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bottom_up.data());
+    glPixelStorei(GL_PACK_ALIGNMENT, alignment);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(pack_buffer));
+
+    Image image{width, height, std::vector<std::uint8_t>(bottom_up.size())};
+    for (std::size_t y = 0; y < rows; ++y)
+        std::memcpy(&image.rgba[y * stride], &bottom_up[(rows - 1 - y) * stride], stride);
+    return image;
+}
+
 Target::Target(int width, int height, int samples) {
     require_gl();
     samples_colour_ = Renderbuffer::create();
@@ -104,24 +125,7 @@ void Target::resolve() {
 }
 
 Image Target::read() const {
-    GLint before = 0, alignment = 4, pack_buffer = 0;
-    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
-    glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
-    glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &pack_buffer);
-    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.id());
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    const std::size_t stride = static_cast<std::size_t>(width_) * 4, rows = static_cast<std::size_t>(height_);
-    std::vector<std::uint8_t> bottom_up(stride * rows);
-    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, bottom_up.data());
-    glPixelStorei(GL_PACK_ALIGNMENT, alignment);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
-    glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(pack_buffer));
-
-    Image image{width_, height_, std::vector<std::uint8_t>(bottom_up.size())};
-    for (std::size_t y = 0; y < rows; ++y)
-        std::memcpy(&image.rgba[y * stride], &bottom_up[(rows - 1 - y) * stride], stride);
-    return image;
+    return read_framebuffer(resolved_.id(), width_, height_);
 }
 
 } // namespace clothlab::render

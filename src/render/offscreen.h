@@ -6,6 +6,9 @@
 
 namespace clothlab::render {
 
+/// The pixels of a framebuffer without samples; 0 is the window. Their values as they are, no conversion.
+Image read_framebuffer(GLuint framebuffer, int width, int height);
+
 /// A multisampled colour (sRGB) and depth buffer, and the texture it is resolved into.
 class Target {
 public:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <imgui.h>
 
+#include "ui/camera.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 
@@ -91,12 +92,14 @@ void resize_grid(scene::Scene& scene, int columns, int rows) {
 }
 
 void draw(Lab& lab) {
+    advance_flight(lab, static_cast<double>(ImGui::GetIO().DeltaTime));
     handle_keys(lab);
     draw_menu(lab);
     draw_status_bar(lab);
     ImGui::DockSpaceOverViewport(dockspace);
     for (const Panel& panel : panels)
         draw_panel(lab, panel);
+    draw_output_window(lab);
 }
 
 } // namespace clothlab::ui

@@ -15,6 +15,7 @@
 
 #include "scene/shader_parameters.h"
 #include "sim/snapshot.h"
+#include "ui/output.h"
 
 namespace clothlab::ui {
 
@@ -42,7 +43,16 @@ struct BrowseForScene {
 struct BrowseForTexture {
     std::string shader, parameter;
 }; ///< a file dialog of the system, for a shader's texture
-struct Screenshot {};
+struct TakePicture {
+    std::filesystem::path file; ///< empty: the next free name after the last one
+    bool replace = false;       ///< a file that is there already
+};
+struct Record {
+    bool replace = false; ///< files that are there already
+};
+struct EndRecording {
+    bool keep = true;
+};
 struct Play {
     bool on;
 };
@@ -59,12 +69,20 @@ struct Undo {};
 struct Redo {};
 struct ResetLayout {};
 struct Quit {};
-using Request = std::variant<OpenScene, SaveScene, BrowseForScene, BrowseForTexture, Screenshot, Play, StepFrame,
-                             StepSubstep, Restart, SetSpeed, PauseOnTrouble, Undo, Redo, ResetLayout, Quit>;
+using Request =
+    std::variant<OpenScene, SaveScene, BrowseForScene, BrowseForTexture, TakePicture, Record, EndRecording, Play,
+                 StepFrame, StepSubstep, Restart, SetSpeed, PauseOnTrouble, Undo, Redo, ResetLayout, Quit>;
 
 struct Message {
     bool error = false;
     std::string text;
+};
+
+/// A camera on its way: see ui/camera.h.
+struct CameraFlight {
+    scene::Camera from, to;
+    scene::Camera at; ///< where the flight put it last
+    double share = 0; ///< of the flight's time that has passed
 };
 
 /// What a panel drew in the last frame, for tests and for the headless check.
@@ -103,6 +121,8 @@ struct Lab {
     std::array<std::array<float, 3>, sim::spring_kinds> spring_colours{};
     std::vector<std::array<float, 3>> legend_colours; ///< of the heat map in use, from low to high; sRGB
     bool show_lamps = false;                          ///< as handles in the viewport
+    std::optional<CameraFlight> flight;
+    Output output;
 
     /// A parameter that restarts the run takes effect when its slider is let go: until then the value waits here.
     struct Pending {

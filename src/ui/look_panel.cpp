@@ -122,17 +122,6 @@ void draw_look(Lab& lab) {
     }
     if (ImGui::CollapsingHeader("Split view"))
         split_view(lab);
-
-    if (ImGui::CollapsingHeader("Camera")) {
-        rows(lab, "camera", {"camera.fov"});
-        if (ImGui::Button(ICON_FA_EXPAND "  Fit view"))
-            lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
-        tooltip("Show the whole scene (F)");
-        ImGui::SameLine();
-        if (ImGui::Button(ICON_FA_VIDEO "  Scene's view"))
-            lab.scene.camera = scene::camera_of(lab.loaded);
-        tooltip("Back to the camera that the scene was loaded with");
-    }
 }
 
 } // namespace clothlab::ui

@@ -3,6 +3,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "ui/camera.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
@@ -120,8 +121,10 @@ void file_menu(Lab& lab, Windows& windows) {
     if (ImGui::MenuItem(ICON_FA_FILE_EXPORT "  Save as ...", "Ctrl+Shift+S"))
         windows.save = true;
     ImGui::Separator();
-    if (ImGui::MenuItem(ICON_FA_CAMERA "  Screenshot", "F12"))
-        lab.ask(Screenshot{});
+    if (ImGui::MenuItem(ICON_FA_CAMERA "  Save a picture", "F12"))
+        lab.ask(TakePicture{});
+    tooltip("Of the viewport, or as the Output window is set, under the next free name");
+    ImGui::MenuItem(ICON_FA_PHOTO_FILM "  Pictures and films ...", "Shift+F12", &lab.output.open);
     ImGui::Separator();
     if (ImGui::MenuItem(ICON_FA_POWER_OFF "  Quit", "Ctrl+Q"))
         lab.ask(Quit{});
@@ -162,13 +165,19 @@ const std::vector<Shortcut>& shortcuts() {
         {"R", "restart"},
         {"W", "wireframe or shaded"},
         {"F, double click", "show the whole scene"},
+        {"Shift+F", "show the cloth as it is now"},
+        {"1, Shift+1, 3, Shift+3, 7", "look from the front, back, right, left, top; on the keypad too"},
+        {"9, 0", "three-quarter view, and the scene's own"},
+        {"5", "orthographic or perspective"},
+        {"Ctrl+Shift+C, Ctrl+Shift+V", "copy and paste the camera as JSON"},
         {"left drag", "turn the camera"},
         {"right drag, Shift+left drag", "move the camera"},
         {"wheel", "nearer or further away"},
         {"Ctrl+click on a slider", "type a value, also beyond its range"},
         {"Ctrl+Z, Ctrl+Shift+Z", "undo and redo a change of parameters"},
         {"Ctrl+O, Ctrl+S, Ctrl+Shift+S", "open, save, save as"},
-        {"F12", "screenshot into the current folder"},
+        {"F12", "save a picture under the next free name"},
+        {"Shift+F12", "pictures and films: size, background, recording"},
         {"F1", "these keys"},
         {"Ctrl+Q", "quit"},
     };
@@ -190,15 +199,13 @@ void handle_keys(Lab& lab) {
         std::string& shader = lab.scene.look.shader;
         shader = shader == "wireframe" ? "diffuse" : "wireframe";
     }
-    if (key(ImGuiKey_F))
-        lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
+    camera_keys(lab);
     if (key(ImGuiMod_Ctrl | ImGuiKey_Z, ImGuiInputFlags_Repeat))
         lab.ask(Undo{});
     if (key(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Z, ImGuiInputFlags_Repeat) ||
         key(ImGuiMod_Ctrl | ImGuiKey_Y, ImGuiInputFlags_Repeat))
         lab.ask(Redo{});
-    if (key(ImGuiKey_F12))
-        lab.ask(Screenshot{});
+    output_keys(lab);
     if (key(ImGuiMod_Ctrl | ImGuiKey_Q))
         lab.ask(Quit{});
 }

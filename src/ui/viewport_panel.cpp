@@ -1,9 +1,8 @@
 // The picture of the scene, and the mouse in it.
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <imgui.h>
 
+#include "ui/camera.h"
 #include "ui/icons.h"
 #include "ui/legend.h"
 #include "ui/panels.h"
@@ -13,34 +12,6 @@
 
 namespace clothlab::ui {
 namespace {
-
-void move_camera(Lab& lab, float shorter_side) {
-    const ImGuiIO& io = ImGui::GetIO();
-    scene::Camera camera = scene::camera_of(lab.scene);
-    const scene::Camera before = camera;
-    if (ImGui::IsItemActive()) {
-        const double dx = static_cast<double>(io.MouseDelta.x), dy = static_cast<double>(io.MouseDelta.y);
-        if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !io.KeyShift) {
-            camera.yaw = std::remainder(camera.yaw - 0.35 * dx, 360.0);
-            camera.pitch = std::clamp(camera.pitch + 0.35 * dy, -89.0, 89.0);
-        } else {
-            // The point under the mouse follows it: the shorter side is what the field of view spans at the target.
-            const double per_pixel =
-                2 * camera.distance * std::tan(camera.fov * 0.00872664625997) / static_cast<double>(shorter_side);
-            const scene::CameraFrame f = scene::frame(camera);
-            const double r = -dx * per_pixel, u = dy * per_pixel;
-            camera.target = {camera.target.x + r * f.right.x + u * f.up.x, camera.target.y + r * f.right.y + u * f.up.y,
-                             camera.target.z + r * f.right.z + u * f.up.z};
-        }
-    }
-    if (ImGui::IsItemHovered() && io.MouseWheel != 0)
-        camera.distance =
-            std::clamp(camera.distance * std::pow(0.88, static_cast<double>(io.MouseWheel)), 0.02, 1000.0);
-    if (camera != before)
-        lab.scene.camera = camera;
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-        lab.scene.camera = scene::fitting_camera(lab.scene.simulation);
-}
 
 /// What went wrong, over the picture until it is dismissed; the newest three.
 void draw_messages(Lab& lab, ImVec2 corner, float width) {
@@ -100,7 +71,9 @@ void draw_viewport(Lab& lab) {
     move_camera(lab, std::min(at_least_one.x, at_least_one.y));
     draw_viewport_handles(lab, corner, at_least_one);
     draw_legend(lab, corner);
-    draw_messages(lab, corner, size.x);
+    const float bar = draw_camera_bar(lab, corner, size.x);
+    draw_recording_badge(lab, corner.x, corner.y + size.y);
+    draw_messages(lab, {corner.x, corner.y + bar}, size.x);
 }
 
 } // namespace clothlab::ui

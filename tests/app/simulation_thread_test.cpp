@@ -28,6 +28,21 @@ TEST_CASE("A started scene is shown at time 0, paused", "[threads]") {
     REQUIRE(shows(published, *sim::Simulation::create(small_cloth())));
 }
 
+TEST_CASE("Who waits for the ticket of a frame misses none, whatever else is published meanwhile", "[threads]") {
+    app::SimulationThread thread;
+    thread.start(small_cloth());
+    thread.play(true);
+    std::uint64_t ticket = thread.step_frames(0); // pauses
+    const std::uint64_t first =
+        wait_for(thread, [&](const app::Published& p) { return p.done >= ticket; }).snapshot->frame;
+    for (std::uint64_t frame = first + 3; frame < first + 60; frame += 3) {
+        ticket = thread.step_frames(3);
+        const app::Published published = wait_for(thread, [&](const app::Published& p) { return p.done >= ticket; });
+        REQUIRE(published.snapshot->frame == frame);
+        REQUIRE(published.snapshot->substep == 0);
+    }
+}
+
 TEST_CASE("Steps and frames are taken to the last one, with the positions of a simulation without a thread",
           "[threads]") {
     for (const sim::Precision precision : {sim::Precision::single_precision, sim::Precision::double_precision}) {

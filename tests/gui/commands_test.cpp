@@ -1,4 +1,5 @@
 // The commands that draw: `clothlab render`, and the lab where there is no display.
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_exception.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
@@ -92,6 +93,53 @@ TEST_CASE("A picture that cannot be drawn or written is refused with a sentence"
                          MessageMatches(ContainsSubstring("no/folder/picture.png")));
 }
 
+TEST_CASE("A sequence has the frames asked for, each as it is drawn alone") {
+    const TemporaryFolder folder;
+    cli::RenderArguments arguments = picture_of("two-pins", (folder / "frame-%02d.png").string());
+    arguments.width = 64;
+    arguments.height = 40;
+    arguments.from = 3;
+    arguments.every = 4;
+    arguments.frame = 13; // 3, 7, 11
+    REQUIRE(render(arguments) == 0);
+    CHECK(files_of(folder.path()).size() == 3);
+    arguments.output = (folder / "alone.png").string();
+    arguments.from = 0;
+    arguments.every.reset();
+    arguments.frame = 7;
+    REQUIRE(render(arguments) == 0);
+    const render::Image second = render::read_png(folder / "frame-01.png");
+    CHECK(second == render::read_png(arguments.output));
+    CHECK(second != render::read_png(folder / "frame-02.png"));
+}
+
+TEST_CASE("A transparent picture has alpha 0 where nothing is drawn and 255 on the cloth") {
+    const TemporaryFolder folder;
+    cli::RenderArguments arguments = picture_of("two-pins", (folder / "scene.png").string());
+    arguments.transparent = true;
+    arguments.frame = 0;
+    REQUIRE(render(arguments) == 0);
+    const render::Image image = render::read_png(arguments.output);
+    CHECK(image.pixel(0, 0)[3] == 0);
+    CHECK(image.pixel(319, 199)[3] == 0);
+    CHECK(std::count_if(image.rgba.begin(), image.rgba.end(), [](std::uint8_t v) { return v == 255; }) > 1000);
+}
+
+TEST_CASE("Options of films and sequences that do not go together are refused") {
+    const auto refused = [](auto change, const char* why) {
+        cli::RenderArguments arguments = picture_of("two-pins", "never-written.png");
+        change(arguments);
+        INFO(why);
+        CHECK_THROWS_MATCHES(render(arguments), scene::SceneError, MessageMatches(ContainsSubstring(why)));
+    };
+    refused([](auto& a) { a.output = "a-%d-%d.png"; }, "one place for the number");
+    refused([](auto& a) { a.every = 2; }, "--every");
+    refused([](auto& a) { a.fps = 30; }, "-o FILE.mp4");
+    refused([](auto& a) { a.output = "a-%d.png", a.from = 3; }, "after the last frame");
+    refused([](auto& a) { a.output = "a.mp4", a.transparent = true; }, "no transparency");
+    refused([](auto& a) { a.transparent = a.ui = true; }, "leave out --ui");
+}
+
 TEST_CASE("A film is an MP4 file, also of an odd size, without ffmpeg the command says what is missing") {
     const TemporaryFolder folder;
     cli::RenderArguments arguments = picture_of("two-pins", (folder / "it's a film.mp4").string());
@@ -108,6 +156,7 @@ TEST_CASE("A film is an MP4 file, also of an odd size, without ffmpeg the comman
     std::ifstream(arguments.output, std::ios::binary).read(head.data(), 12);
     CHECK(head.substr(4, 4) == "ftyp");
     CHECK(fs::file_size(arguments.output) > 1000);
+    CHECK(files_of(folder.path()).size() == 1); // and nothing that was left over
 }
 
 TEST_CASE("With no display the lab draws itself into a picture with a draped cloth") {

@@ -11,6 +11,7 @@
 #include "app/core/data_folder.h"
 #include "app/lab_app.h"
 #include "scene/io.h"
+#include "ui/camera.h"
 
 namespace clothlab::test {
 
@@ -64,8 +65,9 @@ public:
         app_->frame();
         ImGuiTestEngine_PostSwap(engine_);
     }
-    /// Until the simulation has done what it was asked for, and the panels show it.
+    /// Until the simulation has done what it was asked for, the camera is where it was sent, and the panels show it.
     void settle() {
+        ui::finish_flight(lab());
         frame();
         app_->simulation().finish();
         for (int i = 0; i < 3; ++i)

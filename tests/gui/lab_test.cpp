@@ -204,6 +204,7 @@ TEST_CASE("Dragging in the viewport turns, pans and zooms the camera, dragging i
     CHECK(camera() == zoomed);
     REQUIRE(driver.act([](ImGuiTestContext* user) {
         leave_widgets(user);
+        user->KeyPress(ImGuiKey_9);
         user->KeyPress(ImGuiKey_F);
     }));
     CHECK(camera() == scene::fitting_camera(driver.lab().scene.simulation));

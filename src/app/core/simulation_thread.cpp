@@ -228,12 +228,15 @@ SimulationThread::~SimulationThread() {
     thread_.join();
 }
 
-void SimulationThread::send(Command command) {
+std::uint64_t SimulationThread::send(Command command) {
+    std::uint64_t ticket = 0;
     {
         const std::lock_guard lock(mutex_);
         commands_.push_back(std::move(command));
+        ticket = ++sent_;
     }
     wake_.notify_one();
+    return ticket;
 }
 
 void SimulationThread::start(const sim::Description& description) {
@@ -263,8 +266,8 @@ void SimulationThread::step(int substeps) {
     });
 }
 
-void SimulationThread::step_frames(int frames) {
-    send([frames](Worker& w) {
+std::uint64_t SimulationThread::step_frames(int frames) {
+    return send([frames](Worker& w) {
         w.playing = w.in_frame = false;
         if (frames > 0)
             w.wanted.push_back({true, frames});
@@ -314,12 +317,14 @@ void SimulationThread::run() {
     Worker worker;
     worker.restart_pace();
     std::deque<Command> commands;
+    std::uint64_t taken = 0; // the newest ticket of which the command has been carried out
     for (;;) {
         {
             const std::lock_guard lock(mutex_);
             if (quit_)
                 return;
             commands.swap(commands_);
+            taken = sent_;
             if (!commands.empty())
                 busy_ = true;
         }
@@ -332,7 +337,8 @@ void SimulationThread::run() {
         if (worker.worth_publishing()) {
             auto snapshot = worker.snapshot();
             const std::lock_guard lock(mutex_);
-            published_ = {std::move(snapshot), worker.run, worker.playing, worker.real_time_factor, worker.error};
+            published_ = {std::move(snapshot),     worker.run,   worker.playing,
+                          worker.real_time_factor, worker.error, published_.done};
         }
         if (worker.has_steps_to_take())
             continue;
@@ -340,6 +346,7 @@ void SimulationThread::run() {
             // Playing is never done; what was asked for is.
             const std::lock_guard lock(mutex_);
             busy_ = false;
+            published_.done = taken;
             idle_.notify_all();
         }
         if (worked)

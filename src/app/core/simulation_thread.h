@@ -23,6 +23,7 @@ struct Published {
     bool playing = false;
     double real_time_factor = 0; ///< simulated seconds per second, over the last half second of playing; 0 when unknown
     std::string error;           ///< why the last start or change was refused; empty when it was not
+    std::uint64_t done = 0;      ///< tickets up to this one have been done, or ended by trouble or a newer command
 };
 
 class SimulationThread {
@@ -43,7 +44,8 @@ public:
     void play(bool on);
     /// Pauses and takes this many steps, or goes to the end of this many frames.
     void step(int substeps);
-    void step_frames(int frames);
+    /// The ticket is for who must not miss the frame: once it is done, what is published is the end of these frames.
+    std::uint64_t step_frames(int frames);
     /// Simulated seconds per second that playing aims at; above 0.
     void set_speed(double speed);
     /// Whether snapshots have the stability margin (Snapshot::stability): while stepping the newest one, renewed a few
@@ -63,12 +65,13 @@ public:
 private:
     struct Worker;
     using Command = std::function<void(Worker&)>;
-    void send(Command command);
+    std::uint64_t send(Command command); ///< the command's ticket
     void run();
 
     mutable std::mutex mutex_; ///< held for moments only, never during a step
     std::condition_variable wake_, idle_;
     std::deque<Command> commands_;
+    std::uint64_t sent_ = 0; ///< commands
     Published published_;
     bool quit_ = false;
     bool busy_ = false; ///< with commands taken from the queue, and the steps that they ask for

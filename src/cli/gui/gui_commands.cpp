@@ -7,7 +7,9 @@
 
 #include "app/core/data_folder.h"
 #include "app/gui/film.h"
+#include "app/gui/picture_sequence.h"
 #include "app/lab_app.h"
+#include "app/picture_maker.h"
 #include "app/scene_view.h"
 #include "app/shader_list.h"
 #include "app/textures.h"
@@ -84,14 +86,13 @@ public:
     SceneCamera(const RenderArguments& a, scene::Scene scene)
         : scene_(std::move(scene)), window_(app::Window::Kind::offscreen, a.width, a.height, "clothlab"),
           shaders_(app::read_shader_list(app::data_path("shaders"))), renderer_(app::data_path("shaders")),
-          target_(a.width, a.height), simulation_(sim::Simulation::create(scene_.simulation)) {}
+          maker_(renderer_, a.width, a.height, app::samples_of(scene_.look.multisampling, 4), a.transparent),
+          simulation_(sim::Simulation::create(scene_.simulation)) {}
     render::Image picture(int frame) override {
         while (simulation_->frame() < static_cast<std::uint64_t>(frame))
             simulation_->step_frame();
         simulation_->capture(snapshot_, {.quantity = app::quantity_of(scene_.look, shaders_)});
-        const double aspect = static_cast<double>(target_.width()) / target_.height();
-        renderer_.draw(app::to_render(scene_, shaders_, &snapshot_, aspect), target_);
-        return target_.read();
+        return maker_.draw(scene_, shaders_, &snapshot_);
     }
 
 private:
@@ -99,24 +100,54 @@ private:
     app::Window window_;
     std::vector<scene::ShaderDeclaration> shaders_;
     render::Renderer renderer_;
-    render::Target target_;
+    app::PictureMaker maker_;
     std::unique_ptr<sim::Simulation> simulation_;
     sim::Snapshot snapshot_;
 };
 
-void film(const RenderArguments& a, Camera& camera, double frames_per_second) {
-    // A frame for every thirtieth of a second or so, at the scene's own pace.
-    const int every = std::max(1, static_cast<int>(std::lround(frames_per_second / 30)));
-    app::Film film(a.output, a.width, a.height, frames_per_second / every);
-    for (int frame = 0; frame <= a.frame; frame += every)
-        film.add(camera.picture(frame));
-    film.finish();
+void draw_frames(const RenderArguments& a, Camera& camera, int every, app::PictureSink& sink) {
+    for (int frame = a.from; frame <= a.frame; frame += every)
+        sink.add(camera.picture(frame));
+    sink.finish();
 }
 
-int render(const RenderArguments& a) {
+void film(const RenderArguments& a, Camera& camera, double frames_per_second) {
+    // At the scene's own pace, unless both say otherwise.
+    const double wished = a.fps.value_or(30);
+    const int every = a.every.value_or(std::max(1, static_cast<int>(std::lround(frames_per_second / wished))));
+    const double rate = a.every && a.fps ? *a.fps : frames_per_second / every;
+    app::Film film(a.output, a.width, a.height, rate);
+    draw_frames(a, camera, every, film);
+}
+
+/// Throws SceneError for what does not go together.
+void check_output(const RenderArguments& a) {
     const std::string extension = std::filesystem::path(a.output).extension().string();
     if (extension != ".png" && extension != ".mp4")
         throw scene::SceneError("-o " + a.output + ": write FILE.png for a picture or FILE.mp4 for a film");
+    const bool film = extension == ".mp4", sequence = !film && app::SequenceName::is_pattern(a.output);
+    if (sequence) {
+        try {
+            const app::SequenceName name(a.output);
+        } catch (const std::runtime_error& e) {
+            throw scene::SceneError(std::string("-o ") + e.what());
+        }
+    }
+    if (!film && !sequence && (a.from > 0 || a.every))
+        throw scene::SceneError(
+            "--from and --every are for films and sequences: write -o FILE.mp4 or -o NAME-%04d.png");
+    if (!film && a.fps)
+        throw scene::SceneError("--fps is for films: write -o FILE.mp4");
+    if (a.from > a.frame)
+        throw scene::SceneError("--from " + std::to_string(a.from) + " is after the last frame, --frame " +
+                                std::to_string(a.frame));
+    if (a.transparent && (film || a.ui))
+        throw scene::SceneError(film ? "--transparent: films have no transparency; write -o NAME-%04d.png"
+                                     : "--transparent: the lab's panels have a background; leave out --ui");
+}
+
+int render(const RenderArguments& a) {
+    check_output(a);
     scene::Scene scene = a.scene.load();
     if (!a.camera.empty())
         scene.camera = scene::read_camera(scene::read_text_file(a.camera), a.camera);
@@ -134,10 +165,14 @@ int render(const RenderArguments& a) {
         camera = std::make_unique<LabCamera>(a, std::move(scene));
     else
         camera = std::make_unique<SceneCamera>(a, std::move(scene));
-    if (extension == ".mp4")
+    if (std::filesystem::path(a.output).extension() == ".mp4") {
         film(a, *camera, frames_per_second);
-    else
+    } else if (app::SequenceName::is_pattern(a.output)) {
+        app::PictureSequence sequence{app::SequenceName(a.output)};
+        draw_frames(a, *camera, a.every.value_or(1), sequence);
+    } else {
         ::clothlab::render::write_png(camera->picture(a.frame), a.output);
+    }
     std::cout << a.output << "\n";
     return 0;
 }

@@ -1,0 +1,30 @@
+// Draws scenes into pictures of a size of their own, whatever the window's is.
+#pragma once
+
+#include <vector>
+
+#include "render/renderer.h"
+#include "scene/shader_parameters.h"
+
+namespace clothlab::app {
+
+class PictureMaker {
+public:
+    /// A transparent picture has no background: alpha is 0 where nothing is drawn. `samples` per pixel. The renderer
+    /// must outlive this. Throws std::runtime_error when the driver cannot draw pictures of that size.
+    PictureMaker(render::Renderer& renderer, int width, int height, int samples, bool transparent);
+
+    int width() const { return target_.width(); }
+    int height() const { return target_.height(); }
+
+    /// Throws render::ShaderError as the renderer does.
+    render::Image draw(const scene::Scene& scene, const std::vector<scene::ShaderDeclaration>& shaders,
+                       const sim::Snapshot* snapshot);
+
+private:
+    render::Renderer& renderer_;
+    render::Target target_;
+    bool transparent_;
+};
+
+} // namespace clothlab::app
