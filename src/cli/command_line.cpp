@@ -14,6 +14,7 @@ namespace clothlab::cli {
 namespace {
 
 constexpr int usage_error = 2;
+constexpr const char* no_gui = "this clothlab was built without its GUI and cannot draw";
 
 void add_scene(CLI::App& app, SceneArguments& arguments, bool required) {
     auto* scene = app.add_option("scene", arguments.scene,
@@ -55,6 +56,14 @@ void add_run(CLI::App& app, RunArguments& a, int& status) {
     run->final_callback([&a, &status] { status = cli::run(a); });
 }
 
+/// Of --size WIDTHxHEIGHT.
+void read_size(const std::string& size, int& width, int& height) {
+    char end = 0;
+    if (std::sscanf(size.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 || height < 1 || width > 16384 ||
+        height > 16384)
+        throw scene::SceneError("--size " + size + ": write WIDTHxHEIGHT, each from 1 to 16384");
+}
+
 void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiCommands& gui, int& status) {
     auto* render = app.add_subcommand("render", "Draw a scene into a PNG picture or an MP4 film");
     add_scene(*render, a.scene, true);
@@ -85,11 +94,8 @@ void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiC
         ->required();
     render->final_callback([&] {
         if (!gui.render)
-            throw std::runtime_error("this clothlab was built without its GUI and cannot draw");
-        char end = 0;
-        if (std::sscanf(size.c_str(), "%dx%d%c", &a.width, &a.height, &end) != 2 || a.width < 1 || a.height < 1 ||
-            a.width > 16384 || a.height > 16384)
-            throw scene::SceneError("--size " + size + ": write WIDTHxHEIGHT, each from 1 to 16384");
+            throw std::runtime_error(no_gui);
+        read_size(size, a.width, a.height);
         status = gui.render(a);
     });
 }
@@ -101,6 +107,21 @@ void add_textures(CLI::App& app, TexturesArguments& a, const GuiCommands& gui, i
         if (!gui.textures)
             throw std::runtime_error("this clothlab was built without its GUI and has no textures");
         status = gui.textures(a);
+    });
+}
+
+void add_gallery(CLI::App& app, GalleryArguments& a, std::string& size, const GuiCommands& gui, int& status) {
+    auto* gallery = app.add_subcommand("gallery", "Draw the figures of a course's write-up, and a page to read them");
+    gallery->add_option("-o,--output", a.folder, "The folder to write into (default: gallery)");
+    gallery->add_option("--only", a.only, "Regular expression: only figures whose names it is found in");
+    gallery->add_option("--size", size, "WIDTHxHEIGHT of the pictures in pixels, their labels not counted (default: 800x600)");
+    gallery->add_option("--jobs", a.jobs, "Simulations at a time (default: one for each core)")->check(CLI::Range(1, 1024));
+    gallery->final_callback([&] {
+        if (!gui.gallery)
+            throw std::runtime_error(no_gui);
+        if (!size.empty())
+            read_size(size, a.width, a.height);
+        status = gui.gallery(a);
     });
 }
 
@@ -160,6 +181,9 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
     RenderArguments render;
     std::string size = "1280x720";
     add_render(app, render, size, gui, status);
+    GalleryArguments gallery;
+    std::string gallery_size;
+    add_gallery(app, gallery, gallery_size, gui, status);
 
     TexturesArguments textures;
     add_textures(app, textures, gui, status);

@@ -65,12 +65,20 @@ struct TextureRow {
     std::string name, usage, title;
 };
 
+struct GalleryArguments {
+    std::string folder = "gallery";
+    std::string only;              ///< regular expression; empty: all figures
+    int width = 800, height = 600; ///< of the pictures without their labels
+    int jobs = 0;                  ///< 0: one for each core
+};
+
 /// What needs a GUI, given by the program that has one. Each returns the exit status.
 struct GuiCommands {
     std::function<int(const LabArguments&)> lab;
     std::function<int(const RenderArguments&)> render;
     std::function<int(const TexturesArguments&)> textures;
     std::function<std::vector<TextureRow>()> list_textures;
+    std::function<int(const GalleryArguments&)> gallery;
 };
 
 int run_program(int argc, const char* const* argv, const GuiCommands& gui);

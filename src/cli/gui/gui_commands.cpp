@@ -13,6 +13,7 @@
 #include "app/scene_view.h"
 #include "app/shader_list.h"
 #include "app/textures.h"
+#include "cli/gui/gallery.h"
 #include "scene/io.h"
 #include "sim/simulation.h"
 
@@ -180,7 +181,7 @@ int render(const RenderArguments& a) {
 } // namespace
 
 GuiCommands gui_commands() {
-    return {lab, render, textures, list_textures};
+    return {lab, render, textures, list_textures, gallery};
 }
 
 } // namespace clothlab::cli
