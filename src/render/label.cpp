@@ -91,7 +91,8 @@ Typeface::Typeface(const std::filesystem::path& file) : outlines_(std::make_uniq
         throw std::runtime_error("cannot read the font " + file.string() + ": " + std::strerror(errno));
     outlines_->bytes.assign(std::istreambuf_iterator<char>(in), {});
     const auto* bytes = reinterpret_cast<const unsigned char*>(outlines_->bytes.data());
-    // stb_truetype reads tables without looking where the file ends; a file too short for a header is none to begin with.
+    // stb_truetype reads tables without looking where the file ends; a file too short for a header is none to begin
+    // with.
     const int offset = outlines_->bytes.size() > 1024 ? stbtt_GetFontOffsetForIndex(bytes, 0) : -1;
     if (offset < 0 || stbtt_InitFont(&outlines_->font, bytes, offset) == 0)
         throw std::runtime_error("cannot read the font " + file.string() + ": it is no TrueType font");
@@ -168,8 +169,8 @@ Image labelled(const Image& picture, const Label& label, const LabelFaces& faces
 
     Image image{picture.width, picture.height + static_cast<int>(std::lround(height)), picture.rgba};
     image.rgba.reserve(4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-    for (std::size_t left = static_cast<std::size_t>(image.width) *
-                            static_cast<std::size_t>(image.height - picture.height);
+    for (std::size_t left =
+             static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height - picture.height);
          left > 0; --left)
         image.rgba.insert(image.rgba.end(), {strip_colour[0], strip_colour[1], strip_colour[2], 255});
     double top = picture.height + 0.4 * size;

@@ -52,8 +52,8 @@ struct LabelFaces {
     Typeface regular, bold;
 };
 
-/// The picture with a strip below it, as high as the label needs. The title is in bold letters of `size` px, the lines in
-/// smaller regular ones.
+/// The picture with a strip below it, as high as the label needs. The title is in bold letters of `size` px, the lines
+/// in smaller regular ones.
 Image labelled(const Image& picture, const Label& label, const LabelFaces& faces, double size);
 
 } // namespace clothlab::render

@@ -189,20 +189,17 @@ private:
         try {
             const auto simulation = sim::Simulation::create(run.description);
             simulation->watch(true);
+            sim::Snapshot before;
             while (next < run.items.size()) {
-                while (simulation->frame() < static_cast<std::uint64_t>(run.items[next]->figure->frame)) {
-                    if (interrupted())
-                        return;
-                    simulation->step_frame();
-                    ++frames_;
-                }
                 Item& item = *run.items[next];
+                if (!step_to(item.figure->frame, *simulation, before))
+                    return;
                 const std::string& quantity = app::find_shader(shaders_, item.scene.look.shader).quantity;
                 sim::Snapshot snapshot;
-                simulation->capture(snapshot, {.stability = true,
-                                               .quantity = sim::find_point_quantity(quantity).value_or(
-                                                   sim::PointQuantity::none)});
-                item.result.caption = caption(item.scene, shaders_, item.settings, item.figure->frame, snapshot);
+                simulation->capture(
+                    snapshot, {.stability = true,
+                               .quantity = sim::find_point_quantity(quantity).value_or(sim::PointQuantity::none)});
+                item.result.caption = caption(item.scene, shaders_, item.settings, snapshot, before);
                 ++next; // from here on the drawing fails it
                 const std::lock_guard lock(mutex_);
                 moments_.push_back({&item, std::move(snapshot)});
@@ -212,6 +209,23 @@ private:
             for (; next < run.items.size(); ++next)
                 fail(*run.items[next], e.what());
         }
+    }
+
+    /// Steps to a frame, with a snapshot of a little before it: see caption(). False when interrupted.
+    bool step_to(int target, sim::Simulation& simulation, sim::Snapshot& before) {
+        const double frames = caption_seconds * simulation.description().stepping.frames_per_second;
+        const auto to = static_cast<std::uint64_t>(target);
+        const auto from = target > frames ? to - static_cast<std::uint64_t>(frames) : 0;
+        for (bool captured = false; simulation.frame() < to; ++frames_) {
+            if (interrupted())
+                return false;
+            if (!captured && simulation.frame() >= from) {
+                simulation.capture(before);
+                captured = true;
+            }
+            simulation.step_frame();
+        }
+        return true;
     }
 
     void draw_moment(const Moment& moment, render::Renderer& renderer, render::Target& target, Crew& crew) {
@@ -235,7 +249,8 @@ private:
             item.result.width = image.width;
             item.result.height = image.height;
             const int height = std::max(1, thumbnail_width * picture.height / picture.width);
-            item.thumbnail = render::labelled(shrunk(picture, thumbnail_width, height), {item.figure->title, {}}, faces_, 13);
+            item.thumbnail =
+                render::labelled(shrunk(picture, thumbnail_width, height), {item.figure->title, {}}, faces_, 13);
             item.result.drawn = true;
         } catch (const std::exception& e) {
             return fail(item, e.what());
@@ -262,8 +277,7 @@ private:
         for (Item& item : items_) {
             const Figure& figure = *item.figure;
             if (item.result.drawn || !item.result.error.empty())
-                figures.push_back(
-                    figure_html(*item.section, figure, item.result, options_.width, options_.height));
+                figures.push_back(figure_html(*item.section, figure, item.result, options_.width, options_.height));
             else if (std::error_code error; fs::exists(options_.folder / (figure.name + ".png"), error))
                 figures.push_back(figure_of_page(older, figure.name).value_or(""));
             else

@@ -15,8 +15,8 @@ namespace {
 
 using Shaders = std::vector<scene::ShaderDeclaration>;
 
-/// Slower than this is at rest to the eye, m/s, root mean square over all points.
-constexpr double rest_speed = 0.02;
+/// Slower than this is at rest to the eye, m/s.
+constexpr double rest_speed = 0.01;
 /// Said of every run, changed or not; in this order.
 constexpr std::array usual{"cloth.ks", "cloth.density", "cloth.damping"};
 
@@ -47,6 +47,20 @@ std::string value_of(const scene::Field& f, const scene::Scene& scene) {
     return readable(f.get(scene) * f.shown.factor) + unit;
 }
 
+/// Two digits, and no exponent as long as it can be read without.
+std::string rough(double value) {
+    const double unit = value == 0 ? 1 : std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1);
+    return readable(std::round(value / unit) * unit);
+}
+
+/// "Stiffness" within a sentence; "XPBD" stays.
+std::string lower(std::string_view label) {
+    std::string word(label);
+    if (word.size() > 1 && word[0] >= 'A' && word[0] <= 'Z' && !(word[1] >= 'A' && word[1] <= 'Z'))
+        word[0] = static_cast<char>(word[0] - 'A' + 'a');
+    return word;
+}
+
 bool begins(const std::string& key, const char* what) {
     return key.rfind(what, 0) == 0;
 }
@@ -68,12 +82,12 @@ std::string shader_value(const std::string& key, const scene::Scene& scene, cons
                 shown = *on ? "on" : "off";
             else if (const std::string* word = std::get_if<std::string>(&value))
                 shown = *word;
-            return p->label + (shown.empty() ? "" : " " + shown);
+            return lower(p->label) + (shown.empty() ? "" : " " + shown);
         }
     return "";
 }
 
-/// "Shear springs off", "Density 15 g/cm²"; a key that is no parameter with a name, such as "sphere.radius", as it was
+/// "shear springs off", "density 15 g/cm²"; a key that is no parameter with a name, such as "sphere.radius", as it was
 /// written.
 std::string described(const std::string& setting, const scene::Scene& scene, const Shaders& shaders) {
     const std::string key = setting.substr(0, setting.find('='));
@@ -82,7 +96,7 @@ std::string described(const std::string& setting, const scene::Scene& scene, con
     if (key == "cloth.pinned")
         return text("%zu pins", scene.simulation.cloth.pinned.size());
     if (const scene::Field* f = scene::find_field(key))
-        return std::string(f->label) + " " + value_of(*f, scene);
+        return lower(f->label) + " " + value_of(*f, scene);
     return key + " " + setting.substr(std::min(setting.size(), key.size() + 1));
 }
 
@@ -98,12 +112,22 @@ std::size_t points_below_planes(const scene::Scene& scene, const sim::Snapshot& 
             if (!plane)
                 return false;
             const sim::Vec3 &n = plane->normal, &p = plane->point;
-            const double height = ((at[0] - p.x) * n.x + (at[1] - p.y) * n.y + (at[2] - p.z) * n.z) /
-                                  std::hypot(n.x, n.y, n.z);
+            const double height =
+                ((at[0] - p.x) * n.x + (at[1] - p.y) * n.y + (at[2] - p.z) * n.z) / std::hypot(n.x, n.y, n.z);
             return height < -sim::plane_offset;
         });
     }
     return count;
+}
+
+/// m/s, root mean square over all points.
+double mean_speed(const sim::Snapshot& now, const sim::Snapshot& before) {
+    double sum = 0;
+    for (std::size_t i = 0; i < now.positions.size(); ++i) {
+        const double moved = static_cast<double>(now.positions[i]) - static_cast<double>(before.positions[i]);
+        sum += moved * moved;
+    }
+    return std::sqrt(3 * sum / static_cast<double>(now.positions.size())) / (now.time - before.time);
 }
 
 std::string stability(const scene::Scene& scene, const sim::StabilityMargin& margin) {
@@ -114,6 +138,44 @@ std::string stability(const scene::Scene& scene, const sim::StabilityMargin& mar
         return "unstable whatever the step: the mass is negative, so springs push where they should pull";
     return text("omega dt %.3g > %.3g: unstable; ks up to ", margin.omega_dt, margin.limit) + readable(margin.ks_max) +
            " N/m or " + readable(margin.substeps_min) + " substeps would be stable";
+}
+
+/// How the run is doing: its trouble, else its stability margin, speed, strain, and where the cloth passes through a
+/// plane or itself.
+void describe_outcome(const scene::Scene& scene, const sim::Snapshot& snapshot, const sim::Snapshot& before,
+                      Caption& caption) {
+    const sim::Diagnostics& d = snapshot.diagnostics;
+    caption.trouble = d.status != sim::Status::ok;
+    if (caption.trouble)
+        caption.outcome = (d.status == sim::Status::jitter ? "Jitter: " : "Blown up: ") + d.cause + ".";
+    if (d.status == sim::Status::diverged)
+        return; // there is no cloth left to speak of
+    std::string& s = caption.outcome;
+    s += s.empty() ? "" : " ";
+    if (snapshot.steps == 0)
+        return void(s += "At the start, before the first step.");
+    const double speed = mean_speed(snapshot, before);
+    s += speed < rest_speed ? "At rest (" + rough(1000 * speed) + " mm/s)" : "In motion (" + rough(speed) + " m/s)";
+    s += d.max_strain < 1e-4 ? ", strain below 0.01 %" : ", largest strain " + rough(100 * d.max_strain) + " %";
+    if (scene.simulation.rules.limit == sim::LimitRule::cs184 && d.max_strain > sim::stretch_limit - 1 - 1e-4)
+        s += (d.max_strain < 1.05 * (sim::stretch_limit - 1) ? " at" : " beyond") +
+             text(" the stretch limit of %.2g %%", 100 * (sim::stretch_limit - 1));
+    if (!caption.trouble && snapshot.stability) {
+        s += "; " + stability(scene, *snapshot.stability);
+        caption.trouble = !snapshot.stability->stable();
+    }
+    s += ".";
+    if (const std::size_t below = points_below_planes(scene, snapshot); below > 0) {
+        s += " " + readable(static_cast<double>(below)) + " points are below the plane";
+        s += scene.simulation.rules.plane == sim::PlaneRule::cs184
+                 ? ": the course's contact stops only what crosses the plane within a step, and leaves below it what "
+                   "begins a step there."
+                 : ".";
+        caption.trouble = true;
+    }
+    if (const std::size_t crossings = sim::count_intersections(snapshot.columns, snapshot.rows, snapshot.positions);
+        crossings > 0)
+        s += " The cloth passes through itself at " + readable(static_cast<double>(crossings)) + " edges.";
 }
 
 } // namespace
@@ -131,43 +193,8 @@ std::string readable(double value) {
     return digits;
 }
 
-void describe_outcome(const scene::Scene& scene, const sim::Snapshot& snapshot, Caption& caption) {
-    const sim::Diagnostics& d = snapshot.diagnostics;
-    caption.trouble = d.status != sim::Status::ok;
-    if (caption.trouble)
-        caption.outcome = (d.status == sim::Status::jitter ? "Jitter: " : "Blown up: ") + d.cause + ".";
-    if (d.status == sim::Status::diverged)
-        return; // there is no cloth left to speak of
-    std::string& s = caption.outcome;
-    s += s.empty() ? "" : " ";
-    if (snapshot.steps == 0)
-        return void(s += "At the start, before the first step.");
-    s += d.rms_speed < rest_speed ? text("At rest (%.2g mm/s)", 1000 * d.rms_speed)
-                                  : text("In motion (%.2g m/s)", d.rms_speed);
-    s += d.max_strain < 1e-4 ? ", strain below 0.01 %" : text(", largest strain %.2g %%", 100 * d.max_strain);
-    if (scene.simulation.rules.limit == sim::LimitRule::cs184 && d.max_strain > sim::stretch_limit - 1 - 1e-4)
-        s += text(" at the stretch limit of %.2g %%", 100 * (sim::stretch_limit - 1));
-    if (!caption.trouble && snapshot.stability) {
-        s += "; " + stability(scene, *snapshot.stability);
-        caption.trouble = !snapshot.stability->stable();
-    }
-    s += ".";
-    if (const std::size_t below = points_below_planes(scene, snapshot); below > 0) {
-        s += " " + readable(static_cast<double>(below)) + " points are below the plane";
-        s += scene.simulation.rules.plane == sim::PlaneRule::cs184
-                 ? ": the course's contact stops only what crosses the plane within a step, and leaves below it what "
-                   "begins a step there."
-                 : ".";
-        caption.trouble = true;
-    }
-    if (const std::size_t crossings =
-            sim::count_intersections(snapshot.columns, snapshot.rows, snapshot.positions);
-        crossings > 0)
-        s += " The cloth passes through itself at " + readable(static_cast<double>(crossings)) + " edges.";
-}
-
-Caption caption(const scene::Scene& scene, const Shaders& shaders, const std::vector<std::string>& settings, int frame,
-                const sim::Snapshot& snapshot) {
+Caption caption(const scene::Scene& scene, const Shaders& shaders, const std::vector<std::string>& settings,
+                const sim::Snapshot& snapshot, const sim::Snapshot& before) {
     Caption result;
     const sim::Description& d = scene.simulation;
     std::string& p = result.parameters;
@@ -175,12 +202,11 @@ Caption caption(const scene::Scene& scene, const Shaders& shaders, const std::ve
     for (const char* key : usual) {
         const scene::Field& f = *scene::find_field(key);
         const bool ks = std::string_view(key) == "cloth.ks"; // "Stiffness ks" is long where it stands on every picture
-        p += (p.back() == ':' ? " " : ", ") + (ks ? "ks" : std::string(f.label)) + " " + value_of(f, scene);
+        p += (p.back() == ':' ? " " : ", ") + (ks ? "ks" : lower(f.label)) + " " + value_of(f, scene);
     }
     p += text(", %d × %d points", d.cloth.num_width_points, d.cloth.num_height_points);
-    const auto shader = std::find_if(shaders.begin(), shaders.end(), [&](const auto& s) {
-        return s.name == scene.look.shader;
-    });
+    const auto shader =
+        std::find_if(shaders.begin(), shaders.end(), [&](const auto& s) { return s.name == scene.look.shader; });
     result.look = "Shader " + (shader == shaders.end() ? scene.look.shader : shader->title);
     for (const std::string& setting : settings) {
         const std::string key = setting.substr(0, setting.find('='));
@@ -190,8 +216,8 @@ Caption caption(const scene::Scene& scene, const Shaders& shaders, const std::ve
             continue;
         (begins(key, "look.") ? result.look : p) += ", " + described(setting, scene, shaders);
     }
-    p += text("; frame %d, %.3g s", frame, frame / d.stepping.frames_per_second);
-    describe_outcome(scene, snapshot, result);
+    p += text("; frame %llu, %.3g s", static_cast<unsigned long long>(snapshot.frame), snapshot.time);
+    describe_outcome(scene, snapshot, before, result);
     return result;
 }
 

@@ -17,13 +17,14 @@ struct Caption {
     bool trouble = false;   ///< the outcome says what went wrong
 };
 
-/// `settings` are those that made `scene` from the figure's own: what they change is named.
-Caption caption(const scene::Scene& scene, const std::vector<scene::ShaderDeclaration>& shaders,
-                const std::vector<std::string>& settings, int frame, const sim::Snapshot& snapshot);
+/// Speeds are told as the mean over this time, s: what lies on a plane, or is held by the stretch limit, is moved to
+/// and fro within every step and stays where it is.
+inline constexpr double caption_seconds = 0.1;
 
-/// How the run that a snapshot was captured of is doing: its trouble, else its stability margin, speed, strain, and
-/// where the cloth passes through a plane or itself. The snapshot needs its stability margin.
-void describe_outcome(const scene::Scene& scene, const sim::Snapshot& snapshot, Caption& caption);
+/// Of a figure that shows a snapshot of a run, captured with its stability margin; `before` is of up to caption_seconds
+/// before it. `settings` are those that made `scene` from the figure's own: what they change is named.
+Caption caption(const scene::Scene& scene, const std::vector<scene::ShaderDeclaration>& shaders,
+                const std::vector<std::string>& settings, const sim::Snapshot& snapshot, const sim::Snapshot& before);
 
 /// For people: four digits, thousands in groups.
 std::string readable(double value);

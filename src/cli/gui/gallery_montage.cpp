@@ -59,8 +59,7 @@ render::Image montage(const std::vector<render::Image>& pictures, int gap) {
     for (const render::Image& p : pictures)
         height = std::max(height, p.height + gap);
     const auto count = static_cast<int>(pictures.size());
-    const int columns =
-        std::clamp(static_cast<int>(std::lround(std::sqrt(1.5 * count * height / width))), 1, count);
+    const int columns = std::clamp(static_cast<int>(std::lround(std::sqrt(1.5 * count * height / width))), 1, count);
     const int rows = (count + columns - 1) / columns;
     render::Image whole{columns * width + gap, rows * height + gap, {}};
     whole.rgba.resize(4 * static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height));
@@ -69,9 +68,9 @@ render::Image montage(const std::vector<render::Image>& pictures, int gap) {
     for (int n = 0; n < count; ++n) {
         const render::Image& p = pictures[static_cast<std::size_t>(n)];
         for (int y = 0; y < p.height; ++y) {
-            const std::size_t at = static_cast<std::size_t>(n / columns * height + gap + y) *
-                                       static_cast<std::size_t>(whole.width) +
-                                   static_cast<std::size_t>(n % columns * width + gap);
+            const std::size_t at =
+                static_cast<std::size_t>(n / columns * height + gap + y) * static_cast<std::size_t>(whole.width) +
+                static_cast<std::size_t>(n % columns * width + gap);
             std::memcpy(&whole.rgba[4 * at], p.pixel(0, y), 4 * static_cast<std::size_t>(p.width));
         }
     }

@@ -1,5 +1,5 @@
-// The gallery's page: all figures with their captions and the commands that draw each alone, in one HTML file that needs
-// nothing but the pictures beside it.
+// The gallery's page: all figures with their captions and the commands that draw each alone, in one HTML file that
+// needs nothing but the pictures beside it.
 #pragma once
 
 #include <optional>
