@@ -114,8 +114,10 @@ void add_gallery(CLI::App& app, GalleryArguments& a, std::string& size, const Gu
     auto* gallery = app.add_subcommand("gallery", "Draw the figures of a course's write-up, and a page to read them");
     gallery->add_option("-o,--output", a.folder, "The folder to write into (default: gallery)");
     gallery->add_option("--only", a.only, "Regular expression: only figures whose names it is found in");
-    gallery->add_option("--size", size, "WIDTHxHEIGHT of the pictures in pixels, their labels not counted (default: 800x600)");
-    gallery->add_option("--jobs", a.jobs, "Simulations at a time (default: one for each core)")->check(CLI::Range(1, 1024));
+    gallery->add_option("--size", size,
+                        "WIDTHxHEIGHT of the pictures in pixels, their labels not counted (default: 800x600)");
+    gallery->add_option("--jobs", a.jobs, "Simulations at a time (default: one for each core)")
+        ->check(CLI::Range(1, 1024));
     gallery->final_callback([&] {
         if (!gui.gallery)
             throw std::runtime_error(no_gui);
