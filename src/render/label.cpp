@@ -59,6 +59,27 @@ void blend(Image& image, int left, int top, int width, int height, const unsigne
         }
 }
 
+void fill(Image& image, int x, int top, int height, const std::array<float, 3>& colour) {
+    for (int y = top; y < top + height; ++y)
+        for (std::size_t k = 0; k < 3; ++k)
+            image.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                            static_cast<std::size_t>(x)) +
+                       k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(colour[k], 0.f, 1.f)));
+}
+
+/// Draws a scale from `x` on: what its low end stands for, half the picture's width of colours, its high end.
+void draw_scale(Image& image, double x, double top, const LabelScale& scale, const Typeface& face, double size) {
+    face.draw(image, x, top, scale.low, size, title_colour);
+    const int begin = static_cast<int>(x + face.width(scale.low, size) + 0.5 * size);
+    const int end = std::min(image.width, begin + image.width / 2);
+    for (int at = begin; at < end && !scale.colours.empty(); ++at) {
+        const std::size_t n = scale.colours.size();
+        fill(image, at, static_cast<int>(top + 0.15 * size), static_cast<int>(0.8 * size),
+             scale.colours[static_cast<std::size_t>(at - begin) * n / static_cast<std::size_t>(end - begin)]);
+    }
+    face.draw(image, end + 0.5 * size, top, scale.high, size, title_colour);
+}
+
 } // namespace
 
 struct Typeface::Outlines {
@@ -163,7 +184,8 @@ Image labelled(const Image& picture, const Label& label, const LabelFaces& faces
     add(faces.bold, label.title, size, title_colour);
     for (const LabelLine& line : label.lines)
         add(faces.regular, line.text, 0.8 * size, line.colour);
-    double height = 2 * 0.4 * size;
+    const double scale_height = label.scale ? 1.15 * size : 0;
+    double height = 2 * 0.4 * size + scale_height;
     for (const Row& row : rows)
         height += 1.18 * row.size;
 
@@ -174,10 +196,18 @@ Image labelled(const Image& picture, const Label& label, const LabelFaces& faces
          left > 0; --left)
         image.rgba.insert(image.rgba.end(), {strip_colour[0], strip_colour[1], strip_colour[2], 255});
     double top = picture.height + 0.4 * size;
+    bool scale_due = label.scale.has_value();
     for (const Row& row : rows) {
+        if (scale_due && row.face == &faces.regular) {
+            draw_scale(image, margin, top, *label.scale, faces.regular, 0.8 * size);
+            top += scale_height;
+            scale_due = false;
+        }
         row.face->draw(image, margin, top, row.text, row.size, row.colour);
         top += 1.18 * row.size;
     }
+    if (scale_due)
+        draw_scale(image, margin, top, *label.scale, faces.regular, 0.8 * size);
     return image;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,10 +43,18 @@ struct LabelLine {
     Rgb colour{0xB6, 0xBE, 0xC8};
 };
 
-/// What a strip says: a title, and lines below it that are wrapped where they are longer than the picture.
+/// What the colours of a picture mean: a bar of them between what its ends stand for.
+struct LabelScale {
+    std::string low, high;
+    std::vector<std::array<float, 3>> colours; ///< sRGB, 0 to 1, from low to high
+};
+
+/// What a strip says: a title, and lines below it that are wrapped where they are longer than the picture; a scale
+/// stands between the two.
 struct Label {
     std::string title;
     std::vector<LabelLine> lines;
+    std::optional<LabelScale> scale;
 };
 
 struct LabelFaces {

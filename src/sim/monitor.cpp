@@ -157,8 +157,9 @@ std::string reason(const Model<Real>& model, const Vec3Array<Real>& sound, const
         return text("%s amplifies every oscillation, whatever the step (omega dt = %.3g)", name.c_str(),
                     margin.omega_dt);
     const double ks = static_cast<double>(model.k[0]);
-    return text("omega dt = %.4g > %.4g: ks %s too stiff for %d substeps; %s substeps would do", margin.omega_dt,
-                margin.limit, grouped(ks).c_str(), model.substeps, grouped(margin.substeps_min).c_str());
+    return text("omega dt = %.4g > %.4g: ks %s too stiff for %d substep%s; %s substeps would do", margin.omega_dt,
+                margin.limit, grouped(ks).c_str(), model.substeps, model.substeps == 1 ? "" : "s",
+                grouped(margin.substeps_min).c_str());
 }
 
 } // namespace

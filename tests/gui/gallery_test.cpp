@@ -233,7 +233,7 @@ TEST_CASE("Captions of runs that fail say why, those of sound runs do not") {
     CHECK_THAT(sound.outcome, ContainsSubstring("In motion") && ContainsSubstring("stable up to 2"));
     CHECK_THAT(sound.outcome,
                !ContainsSubstring("nstable") && !ContainsSubstring("Blown") && !ContainsSubstring("Jitter"));
-    CHECK_THAT(sound.parameters, ContainsSubstring("ks 5\u00a0000 N/m, density 15 g/cm²") &&
+    CHECK_THAT(sound.parameters, ContainsSubstring("ks 5\u00a0000\u00a0N/m, density 15\u00a0g/cm²") &&
                                      ContainsSubstring("8 × 8 points") && ContainsSubstring("frame 20, 0.222 s"));
 
     const cli::Caption jitter = caption_of("two-pins", 30, small_with({"cloth.ks=10000000"}));
@@ -252,7 +252,7 @@ TEST_CASE("Captions of runs that fail say why, those of sound runs do not") {
         "self-collision", 3, {"cloth.num_width_points=8", "cloth.num_height_points=8", "cloth.offset=0,-0.3,0"});
     CHECK(below.trouble);
     CHECK_THAT(below.outcome, ContainsSubstring("24 points are below the plane"));
-    CHECK_THAT(below.parameters, ContainsSubstring("offset (0, -0.3, 0) m"));
+    CHECK_THAT(below.parameters, ContainsSubstring("offset (0, -0.3, 0)\u00a0m"));
 
     const cli::Caption start = caption_of("two-pins", 0, small_with({"look.show_shearing=false"}));
     CHECK_THAT(start.outcome, ContainsSubstring("before the first step"));

@@ -11,12 +11,14 @@
 #include <iostream>
 #include <iterator>
 #include <mutex>
+#include <optional>
 #include <regex>
 #include <thread>
 
 #include "app/core/data_folder.h"
 #include "app/scene_view.h"
 #include "app/shader_list.h"
+#include "app/textures.h"
 #include "app/window.h"
 #include "cli/gui/crew.h"
 #include "cli/gui/gallery_montage.h"
@@ -194,11 +196,9 @@ private:
                 Item& item = *run.items[next];
                 if (!step_to(item.figure->frame, *simulation, before))
                     return;
-                const std::string& quantity = app::find_shader(shaders_, item.scene.look.shader).quantity;
                 sim::Snapshot snapshot;
-                simulation->capture(
-                    snapshot, {.stability = true,
-                               .quantity = sim::find_point_quantity(quantity).value_or(sim::PointQuantity::none)});
+                simulation->capture(snapshot,
+                                    {.stability = true, .quantity = app::quantity_of(item.scene.look, shaders_)});
                 item.result.caption = caption(item.scene, shaders_, item.settings, snapshot, before);
                 ++next; // from here on the drawing fails it
                 const std::lock_guard lock(mutex_);
@@ -241,7 +241,7 @@ private:
     void write(Item& item, const render::Image& picture) {
         try {
             const Caption& c = item.result.caption;
-            render::Label label{item.figure->title, {{c.parameters}, {c.look}}};
+            render::Label label{item.figure->title, {{c.parameters}, {c.look}}, scale_of(item.scene.look)};
             label.lines.push_back(c.trouble ? render::LabelLine{c.outcome, trouble_colour}
                                             : render::LabelLine{c.outcome});
             const render::Image image = render::labelled(picture, label, faces_, picture.width / 38.0);
@@ -250,12 +250,26 @@ private:
             item.result.height = image.height;
             const int height = std::max(1, thumbnail_width * picture.height / picture.width);
             item.thumbnail =
-                render::labelled(shrunk(picture, thumbnail_width, height), {item.figure->title, {}}, faces_, 13);
+                render::labelled(shrunk(picture, thumbnail_width, height), {item.figure->title, {}, {}}, faces_, 13);
             item.result.drawn = true;
         } catch (const std::exception& e) {
             return fail(item, e.what());
         }
         count();
+    }
+
+    /// The legend of a heat map.
+    std::optional<render::LabelScale> scale_of(const scene::Look& look) const {
+        const scene::ShaderDeclaration& shader = app::find_shader(shaders_, look.shader);
+        const scene::ShaderParameter* map = shader.legend ? shader.find(shader.legend->map) : nullptr;
+        if (!map)
+            return std::nullopt;
+        const scene::ShaderLegend& legend = *shader.legend;
+        const auto end = [&](const std::string& parameter) {
+            return readable(scene::number_of(look, shader, parameter)) + " " + legend.unit;
+        };
+        const auto name = std::get<std::string>(scene::value_of(look, shader, *map));
+        return render::LabelScale{legend.title + ": " + end(legend.low), end(legend.high), app::ramp_colours(name)};
     }
 
     void fail(Item& item, const std::string& why) {
@@ -336,6 +350,7 @@ scene::Scene load_figure(const Figure& figure, const std::vector<std::string>& s
     scene::check_shader_values(scene.look, shaders, figure.scene);
     for (const auto& [name, values] : scene.look.shaders)
         app::find_shader(shaders, name);
+    app::resolve_textures(scene.look, shaders, app::scene_path(figure.scene).parent_path());
     return scene;
 }
 

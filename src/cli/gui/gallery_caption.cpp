@@ -15,10 +15,13 @@ namespace {
 
 using Shaders = std::vector<scene::ShaderDeclaration>;
 
-/// Slower than this is at rest to the eye, m/s.
-constexpr double rest_speed = 0.01;
+/// m/s: slower than the first is at rest to the eye, slower than the second shifts or trembles without going anywhere.
+constexpr double rest_speed = 0.01, slow_speed = 0.1;
 /// Said of every run, changed or not; in this order.
 constexpr std::array usual{"cloth.ks", "cloth.density", "cloth.damping"};
+
+/// Between a number's groups and before its unit: no line is broken there.
+const std::string unbroken_space = "\u00a0";
 
 std::string text(const char* format, auto... arguments) {
     char buffer[320];
@@ -27,7 +30,7 @@ std::string text(const char* format, auto... arguments) {
 }
 
 std::string value_of(const scene::Field& f, const scene::Scene& scene) {
-    const std::string unit = f.shown.unit.empty() ? "" : " " + std::string(f.shown.unit);
+    const std::string unit = f.shown.unit.empty() ? "" : unbroken_space + std::string(f.shown.unit);
     switch (f.type) {
     case scene::FieldType::boolean:
         return f.get(scene) != 0 ? "on" : "off";
@@ -77,7 +80,7 @@ std::string shader_value(const std::string& key, const scene::Scene& scene, cons
             const scene::ShaderValue value = scene::value_of(scene.look, shader, *p);
             std::string shown;
             if (const double* number = std::get_if<double>(&value))
-                shown = readable(*number) + (p->unit.empty() ? "" : " " + p->unit);
+                shown = readable(*number) + (p->unit.empty() ? "" : unbroken_space + p->unit);
             else if (const bool* on = std::get_if<bool>(&value))
                 shown = *on ? "on" : "off";
             else if (const std::string* word = std::get_if<std::string>(&value))
@@ -155,8 +158,11 @@ void describe_outcome(const scene::Scene& scene, const sim::Snapshot& snapshot, 
     if (snapshot.steps == 0)
         return void(s += "At the start, before the first step.");
     const double speed = mean_speed(snapshot, before);
-    s += speed < rest_speed ? "At rest (" + rough(1000 * speed) + " mm/s)" : "In motion (" + rough(speed) + " m/s)";
-    s += d.max_strain < 1e-4 ? ", strain below 0.01 %" : ", largest strain " + rough(100 * d.max_strain) + " %";
+    s += speed < rest_speed   ? "At rest (" + rough(1000 * speed) + unbroken_space + "mm/s)"
+         : speed < slow_speed ? "Nearly at rest (" + rough(1000 * speed) + unbroken_space + "mm/s)"
+                              : "In motion (" + rough(speed) + unbroken_space + "m/s)";
+    s += d.max_strain < 1e-4 ? ", strain below 0.01 %"
+                             : ", largest strain " + rough(100 * d.max_strain) + unbroken_space + "%";
     if (scene.simulation.rules.limit == sim::LimitRule::cs184 && d.max_strain > sim::stretch_limit - 1 - 1e-4)
         s += (d.max_strain < 1.05 * (sim::stretch_limit - 1) ? " at" : " beyond") +
              text(" the stretch limit of %.2g %%", 100 * (sim::stretch_limit - 1));
@@ -189,7 +195,7 @@ std::string readable(double value) {
     std::string digits = text("%.0f", whole);
     const std::size_t sign = value < 0 ? 1 : 0;
     for (std::size_t end = digits.size(); end > 3 + sign; end -= 3)
-        digits.insert(end - 3, "\u00a0"); // a space at which no line is broken
+        digits.insert(end - 3, unbroken_space);
     return digits;
 }
 
