@@ -181,7 +181,7 @@ void describe_outcome(const scene::Scene& scene, const sim::Snapshot& snapshot, 
     }
     if (const std::size_t crossings = sim::count_intersections(snapshot.columns, snapshot.rows, snapshot.positions);
         crossings > 0)
-        s += " The cloth passes through itself at " + readable(static_cast<double>(crossings)) + " edges.";
+        s += " The cloth passes through itself in " + readable(static_cast<double>(crossings)) + " places.";
 }
 
 } // namespace
