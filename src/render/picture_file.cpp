@@ -75,12 +75,12 @@ PictureFile::PictureFile(const std::filesystem::path& path) : path_(path) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error))
         fail("it is a folder");
+    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+        fail("it is not a regular file"); // a pipe would be waited for
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     if (!file)
         fail(errno == 0 ? "unknown error" : std::strerror(errno));
-    if (!std::filesystem::is_regular_file(path, error))
-        fail("it is not a regular file");
     if (std::filesystem::file_size(path, error) > std::numeric_limits<int>::max())
         fail("it is larger than 2 GB");
     bytes_.assign(std::istreambuf_iterator<char>(file), {});

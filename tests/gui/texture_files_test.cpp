@@ -1,4 +1,6 @@
 // Textures from files, before they go to OpenGL: what is read, and what is said about files that are no good.
+#include <sys/stat.h>
+
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 
@@ -126,6 +128,8 @@ TEST_CASE("A picture that is missing, empty, cut short or none is named with the
     expect("missing.png", "No such file");
     fs::create_directory(folder / "folder.png");
     expect("folder.png", "it is a folder");
+    REQUIRE(::mkfifo((folder / "pipe.png").c_str(), 0600) == 0);
+    expect("pipe.png", "it is not a regular file");
     write_file(folder / "empty.png", "");
     expect("empty.png", "it is empty");
     write_file(folder / "text.png", "This is a text, and no picture at all. It is long enough to look like a header.");
