@@ -58,6 +58,11 @@ void reset_state() {
 /// The texture unit of a surface shader's first texture; those below are for what all shaders share.
 constexpr int first_surface_unit = 1;
 
+/// A shader of lines draws springs, of which a sphere has none.
+bool spheres_like_cloth(const Options& options, const Surface& surface) {
+    return options.spheres_like_cloth && !surface.lines;
+}
+
 constexpr const char* always_needed[] = {"background", "sphere", "plane", "pins"};
 
 } // namespace
@@ -255,8 +260,7 @@ void Renderer::Parts::draw_cloth(const Scene& what, const Surface& surface, Draw
 void Renderer::Parts::draw_spheres(const Scene& what, const Surface& surface, DrawReport& report) {
     const Options& options = what.options;
     sphere.set_lines(surface.sphere_lat_lines, surface.sphere_lon_lines);
-    // A shader of lines draws springs, of which a sphere has none.
-    const bool like_cloth = options.spheres_like_cloth && !surface.lines;
+    const bool like_cloth = spheres_like_cloth(options, surface);
     const Program& program = like_cloth ? shaders.surface(surface.shader) : shaders.program("sphere");
     if (like_cloth)
         use(program, options, surface.uniforms);
@@ -275,7 +279,18 @@ void Renderer::Parts::draw_spheres(const Scene& what, const Surface& surface, Dr
         if (!drawn)
             continue;
         program.set("object", glm::vec4(glm::vec3(*drawn), 0.99f * drawn->w));
-        sphere.draw();
+        if (like_cloth && surface.translucent) { // its far side first
+            glEnable(GL_BLEND);
+            glEnable(GL_CULL_FACE);
+            for (const GLenum away : {GL_FRONT, GL_BACK}) {
+                glCullFace(away);
+                sphere.draw();
+            }
+            glDisable(GL_CULL_FACE);
+            glDisable(GL_BLEND);
+        } else {
+            sphere.draw();
+        }
         ++report.spheres;
     }
 }
@@ -371,9 +386,13 @@ void Renderer::Parts::draw_part(const Scene& what, const Surface& surface, DrawR
     const bool cloth_last = surface.translucent;
     if (!cloth_last)
         draw_cloth(what, surface, report);
+    const bool planes_first = cloth_last && spheres_like_cloth(what.options, surface); // they shine through spheres
+    if (planes_first)
+        draw_planes(what, report);
     if (what.options.show_colliders)
         draw_spheres(what, surface, report);
-    draw_planes(what, report);
+    if (!planes_first)
+        draw_planes(what, report);
     if (cloth_last && what.snapshot != nullptr)
         draw_cloth(what, surface, report);
     if (what.options.show_pins)
