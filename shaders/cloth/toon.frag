@@ -12,7 +12,8 @@ uniform vec3 highlight;              //@ label="Highlight" colour="#FFF4DC" help
 uniform float ks = 0.6;              //@ label="Highlight's strength" min=0 max=1 help="How far the highlights hide the cloth's colour."
 uniform float p = 60.0;              //@ label="Shininess p" min=1 max=1000 log help="The larger, the smaller the highlight."
 uniform int highlight_steps = 2;     //@ label="Highlight's steps" min=1 max=5 help="Edges from outside to the middle of a highlight."
-uniform float outline = 0.3;         //@ label="Outline" min=0 max=1 help="Where the cosine between normal and view is below this, there is the outline; 0: none."
+uniform float outline = 0.35;        //@ label="Outline" min=0 max=1 help="Where the cosine between normal and view is below this, there can be an outline; 0: none."
+uniform float outline_width = 5.0;   //@ label="Outline's width" unit="px" min=0.5 max=20 log help="How wide outlines are at most: flat cloth that is seen from the side would be one."
 uniform vec3 outline_colour;         //@ label="Outline's colour" colour="#1B1420" help="Colour of the outlines."
 
 // 0, 1 ... in equal steps as x grows by 1, with edges a pixel wide.
@@ -49,7 +50,8 @@ void main() {
     float shine = min(steps_of(specular / full_light * (count + 1.0)), count) / count;
     colour = mix(colour, shade * highlight, ks * shine);
 
-    float facing = dot(n, to_eye), width = max(fwidth(facing), 1e-5);
-    float edge = 1.0 - smoothstep(outline - width, outline, facing);
-    pixel = vec4(mix(colour, shade * outline_colour, outline > 0.0 ? edge : 0.0), 1.0);
+    // The cosine falls to 0 at the edge, so divided by its change from pixel to pixel it is the distance from there.
+    float facing = dot(n, to_eye), per_px = max(fwidth(facing), 1e-6);
+    float inside = (min(outline, outline_width * per_px) - facing) / per_px;   // px
+    pixel = vec4(mix(colour, shade * outline_colour, outline > 0.0 ? smoothstep(-0.5, 0.5, inside) : 0.0), 1.0);
 }
