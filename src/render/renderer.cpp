@@ -428,16 +428,17 @@ DrawReport Renderer::draw(const Scene& what, Target& target) {
     glClear(GL_DEPTH_BUFFER_BIT);
     parts.set_shadow(what);
     parts.set_frame(what, target, projected);
+    parts.draw_part(what, options.surface, report);
     if (what.right) {
+        // Over the left part: a scissor for that too would leave samples of pixels at the divider to nobody.
         const int divider =
             static_cast<int>(std::lround(std::clamp(what.divider, 0.f, 1.f) * static_cast<float>(target.width())));
         glEnable(GL_SCISSOR_TEST);
         glScissor(divider, 0, target.width() - divider, target.height());
+        glClear(GL_DEPTH_BUFFER_BIT);
         DrawReport of_the_right = report;
         parts.draw_part(what, *what.right, of_the_right);
-        glScissor(0, 0, divider, target.height());
     }
-    parts.draw_part(what, options.surface, report);
     reset_state();
     target.resolve();
     return report;

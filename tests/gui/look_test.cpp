@@ -43,9 +43,10 @@ TEST_CASE("Each part of a split view is what its shader alone draws there", "[lo
         CHECK(glIsEnabled(GL_SCISSOR_TEST) == GL_FALSE);
         const int at = static_cast<int>(std::lround(160 * std::clamp(divider, 0.f, 1.f)));
         int wrong = 0;
+        // But for the pixels at the divider: Mesa's rasteriser cuts off samples of its neighbours.
         for (int y = 0; y < 90; ++y)
             for (int x = 0; x < 160; ++x)
-                wrong += differs(both, x < at ? left : right, x, y) ? 1 : 0;
+                wrong += x != at && x != at - 1 && differs(both, x < at ? left : right, x, y) ? 1 : 0;
         CHECK(wrong == 0);
     }
     scene.right->shader = "no-such";
@@ -96,25 +97,27 @@ TEST_CASE("The ground grid is drawn at y = 0 without a plane", "[look]") {
     CHECK(studio.report.planes == 0);
 }
 
-TEST_CASE("More samples per pixel give more shades along an edge", "[look]") {
+TEST_CASE("More samples per pixel give shades between along an edge", "[look]") {
     Studio studio;
     const sim::Snapshot cloth = flat_cloth(3, 3);
     render::Scene scene = scene_of(cloth);
     scene.view.up = {0.3f, 0, -1}; // edges across the pixels
     scene.options.ambient = 1;
     scene.options.lights = {};
-    const auto shades = [&](int samples) {
+    // Neither the cloth's colour nor the background's.
+    const auto between = [&](int samples) {
         studio.target.set_samples(samples);
         const render::Image image = studio.draw(scene);
-        std::array<bool, 256> seen{};
-        for (int y = 20; y < 70; ++y) // the background changes from row to row, so: within one colour channel's range
+        int count = 0;
+        for (int y = 0; y < 90; ++y)
             for (int x = 0; x < 160; ++x)
-                seen[image.pixel(x, y)[0]] = true;
-        return std::count(seen.begin(), seen.end(), true);
+                count += image.pixel(x, y)[0] > 90 && image.pixel(x, y)[0] < 200 ? 1 : 0;
+        return count;
     };
-    const auto one = shades(1);
+    CHECK(between(1) == 0);
     CHECK(studio.target.samples() == 1);
-    CHECK(shades(4) > one + 20);
+    CHECK(between(4) > 50);
+    CHECK(studio.target.samples() == 4);
 }
 
 TEST_CASE("The divider of a split view and a lamp's handle are dragged with the mouse", "[look]") {
@@ -138,7 +141,7 @@ TEST_CASE("The divider of a split view and a lamp's handle are dragged with the 
 
 TEST_CASE("A shader's parameters are sliders in the panel Look, with a reset", "[look]") {
     LabDriver driver;
-    driver.lab().scene.look.shader = "blinn-phong";
+    driver.lab().scene.look.shader = driver.lab().loaded.look.shader = "blinn-phong";
     driver.settle();
     REQUIRE(driver.act([](ImGuiTestContext* user) { user->ItemInputValue("###Look/**/p/##value", "77"); }));
     CHECK(values_of(driver, "blinn-phong").at("p") == scene::ShaderValue(77.0));
