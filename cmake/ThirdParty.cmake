@@ -140,6 +140,19 @@ endif()
 add_library(portable_file_dialogs INTERFACE)
 target_include_directories(portable_file_dialogs SYSTEM INTERFACE ${external}/portable_file_dialogs/portable_file_dialogs)
 
+# --- ImGuiColorTextEdit: the shader panel's text editor ---------------------------------------------------------------
+
+set(color_text_edit ${external}/ImGuiColorTextEdit/ImGuiColorTextEdit)
+if(NOT EXISTS ${color_text_edit}/TextEditor.h)
+    message(FATAL_ERROR "${CLOTHLAB_IMGUI_BUNDLE_DIR} has no ImGuiColorTextEdit: run cmake/setup.sh gui, or point "
+        "-DCLOTHLAB_IMGUI_BUNDLE_DIR at the unpacked source release imgui-bundle")
+endif()
+# Like the layers, it knows ImGui's headers only.
+add_library(imgui_color_text_edit STATIC EXCLUDE_FROM_ALL ${color_text_edit}/TextEditor.cpp)
+target_include_directories(imgui_color_text_edit SYSTEM PUBLIC ${color_text_edit})
+target_link_libraries(imgui_color_text_edit PUBLIC imgui_headers)
+clothlab_foreign(imgui_color_text_edit)
+
 # --- fonts -----------------------------------------------------------------------------------------------------------
 
 set(rich_md_fonts ${external}/imgui_rich_md/imgui_rich_md/assets/fonts)

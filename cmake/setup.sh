@@ -25,6 +25,7 @@ bundle_parts=(
     'external/imgui_test_engine/imgui_test_engine/imgui_test_engine'
     external/glfw/glfw/{CMake,CMakeLists.txt,LICENSE.md,deps,include,src}
     external/portable_file_dialogs/portable_file_dialogs
+    external/ImGuiColorTextEdit/ImGuiColorTextEdit/{LICENSE,TextEditor.cpp,TextEditor.h}
     external/imgui_rich_md/imgui_rich_md/assets/fonts/Roboto/Roboto-{Regular,Bold}.ttf
     'external/imgui_rich_md/imgui_rich_md/assets/fonts/Inconsolata-*'
     external/hello_imgui/hello_imgui/hello_imgui_assets/fonts/Font_Awesome_6_Free-Solid-900.otf

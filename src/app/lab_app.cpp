@@ -23,6 +23,13 @@ fs::path layout_file(const LabOptions& options) {
     return options.keep_layout ? user_layout_file() : fs::path();
 }
 
+std::vector<fs::path> shader_folders(const LabOptions& options) {
+    std::vector<fs::path> folders{data_path("shaders")};
+    if (!options.user_shaders.empty())
+        folders.insert(folders.begin(), options.user_shaders);
+    return folders;
+}
+
 std::vector<ui::SceneEntry> scene_entries() {
     std::vector<ui::SceneEntry> entries;
     for (const fs::path& file : shipped_scenes()) {
@@ -40,15 +47,15 @@ std::vector<ui::SceneEntry> scene_entries() {
 
 LabApp::LabApp(const LabOptions& options, scene::Scene scene, fs::path file)
     : window_(options.window, options.width, options.height, "clothlab"),
-      imgui_(window_, layout_file(options), data_path("imgui.ini"), options.scale), renderer_(data_path("shaders")),
+      imgui_(window_, layout_file(options), data_path("imgui.ini"), options.scale), renderer_(shader_folders(options)),
       // On the screen smooth motion matters more than smooth edges; a picture has time.
       automatic_samples_(options.window == Window::Kind::desktop && render::software_rendering() ? 1 : 4),
-      viewport_(1, 1, automatic_samples_) {
+      viewport_(1, 1, automatic_samples_),
+      shader_desk_(renderer_, lab_, options.user_shaders, options.look_at_shaders_s), drawn_{render::wireframe_shader,
+                                                                                             {}} {
     if (options.window == Window::Kind::offscreen)
         whole_.emplace(options.width, options.height, 1);
-    lab_.open.fill(true);
     lab_.scenes = scene_entries();
-    lab_.shaders = read_shader_list(data_path("shaders"));
     for (std::size_t i = 0; i < lab_.spring_colours.size(); ++i) {
         const glm::vec3& c = render::spring_colours[i];
         lab_.spring_colours[i] = {c.r, c.g, c.b};
@@ -76,7 +83,13 @@ void LabApp::run() {
 
 bool LabApp::frame(double wait_seconds) {
     window_.poll(wait_seconds);
-    if (window_.should_close() || quit_)
+    if (window_.should_close()) {
+        if (!ui::has_unsaved_shaders(lab_))
+            return false;
+        window_.keep_open();
+        lab_.ask(ui::Quit{});
+    }
+    if (quit_)
         return false;
     take_published();
     pictures_.update();
@@ -87,6 +100,7 @@ bool LabApp::frame(double wait_seconds) {
     poll_file_dialog();
     lab_.can_undo = history_.can_undo();
     lab_.can_redo = history_.can_redo();
+    shader_desk_.update();
     imgui_.begin_frame();
     ui::draw(lab_);
     carry_out_requests();
@@ -269,11 +283,14 @@ void LabApp::carry_out_requests() {
                 else if constexpr (std::is_same_v<R, ui::Redo>)
                     go_to(history_.redo());
                 else if constexpr (std::is_same_v<R, ui::ResetLayout>) {
-                    lab_.open.fill(true);
+                    lab_.open = ui::open_at_start;
                     imgui_.reset_layout();
-                } else if constexpr (std::is_same_v<R, ui::Quit>)
-                    quit_ = true;
-                else
+                } else if constexpr (std::is_same_v<R, ui::ShaderRequest>) {
+                    shader_desk_.carry_out(r);
+                } else if constexpr (std::is_same_v<R, ui::Quit>) {
+                    quit_ = r.drop_unsaved || !ui::has_unsaved_shaders(lab_);
+                    lab_.shader_work.asking_to_quit = !quit_;
+                } else
                     static_assert(std::is_same_v<R, ui::TakePicture> || std::is_same_v<R, ui::Record> ||
                                   std::is_same_v<R, ui::EndRecording>); // are for pictures_
             },
@@ -285,18 +302,24 @@ void LabApp::draw_viewport() {
     if (lab_.viewport_width < 1 || lab_.viewport_height < 1)
         return; // the panel has not been drawn yet
     Shown now{lab_.snapshot, lab_.scene, lab_.viewport_width, lab_.viewport_height};
-    if (now == shown_ && lab_.viewport_texture != 0 && !textures_changed())
+    const bool other_shaders = shader_desk_.take_changed(), other_textures = textures_changed();
+    if (now == shown_ && !other_shaders && !other_textures && lab_.viewport_texture != 0)
         return;
+    viewport_.set_samples(samples_of(lab_.scene.look.multisampling, automatic_samples_));
+    viewport_.resize(now.width, now.height);
+    const double aspect = static_cast<double>(now.width) / now.height;
+    render::Scene scene = to_render(lab_.scene, lab_.shaders, lab_.snapshot.get(), aspect);
     try {
-        viewport_.set_samples(samples_of(lab_.scene.look.multisampling, automatic_samples_));
-        viewport_.resize(now.width, now.height);
-        draw_report_ = renderer_.draw(
-            to_render(lab_.scene, lab_.shaders, lab_.snapshot.get(), static_cast<double>(now.width) / now.height),
-            viewport_);
+        draw_report_ = renderer_.draw(scene, viewport_);
+        drawn_ = {scene.options.surface.shader, scene.right ? scene.right->shader : std::string()};
+        shader_desk_.tell(nullptr);
     } catch (const render::ShaderError& e) {
-        say(true, e.what());
-        lab_.scene.look.shader = shown_.scene.look.shader.empty() ? "diffuse" : shown_.scene.look.shader;
-        return;
+        // A shader that has never been right: those before it go on.
+        scene.options.surface = to_surface(lab_.scene.look, lab_.shaders, drawn_.left);
+        if (scene.right)
+            scene.right = to_surface(lab_.scene.look, lab_.shaders, drawn_.right.empty() ? drawn_.left : drawn_.right);
+        draw_report_ = renderer_.draw(scene, viewport_);
+        shader_desk_.tell(&e);
     }
     shown_ = std::move(now);
     lab_.viewport_texture = viewport_.texture();

@@ -11,6 +11,7 @@
 #include "app/core/simulation_thread.h"
 #include "app/gui/imgui_layer.h"
 #include "app/pictures.h"
+#include "app/gui/shader_desk.h"
 #include "app/window.h"
 #include "render/renderer.h"
 #include "ui/lab.h"
@@ -24,6 +25,9 @@ struct LabOptions {
     int width = 1440, height = 900; ///< of the window, in screen coordinates
     bool keep_layout = true;        ///< load and save the user's layout; otherwise the default one is used
     float scale = 0;                ///< of the interface; 0: as the display says
+    /// Searched for shaders before those that the program comes with; changed ones are saved there. Empty: none.
+    std::filesystem::path user_shaders;
+    double look_at_shaders_s = 0.25; ///< how often shader files are looked at for changes
 };
 
 class LabApp {
@@ -77,6 +81,10 @@ private:
     std::optional<render::Target> whole_; ///< the window's picture, where framebuffer 0 holds none
     SimulationThread simulation_;
     ui::Lab lab_;
+    ShaderDesk shader_desk_;
+    struct {
+        std::string left, right;
+    } drawn_; ///< the last shaders of the picture that could be drawn with
     History history_;
     sim::Description passed_on_;         ///< what the simulation thread has been told
     std::string refusal_;                ///< the simulation's last error that has been shown

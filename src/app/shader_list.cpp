@@ -2,24 +2,21 @@
 
 #include <algorithm>
 
-#include "render/shader_files.h"
 #include "scene/error.h"
 
 namespace clothlab::app {
-namespace fs = std::filesystem;
 namespace {
 
-scene::ShaderDeclaration read_shader(const fs::path& folder, const std::string& name) {
+scene::ShaderDeclaration read_shader(const render::ShaderFolders& folders, const std::string& name,
+                                     std::map<std::string, render::ShaderFault>* faults) {
     scene::ShaderDeclaration shader;
     shader.name = shader.title = name;
     render::ShaderSource source;
     try {
-        const fs::path fragment = fs::path("cloth") / (name + ".frag");
-        source = render::read_shader(folder, fragment);
-        std::error_code error;
-        const fs::path vertex = fs::path("cloth") / (name + ".vert");
-        if (fs::exists(folder / vertex, error)) {
-            render::ShaderSource more = render::read_shader(folder, vertex);
+        const render::ProgramFiles files = render::surface_files(folders, name);
+        source = render::read_shader(folders, files.fragment);
+        if (files.vertex == "cloth/" + name + ".vert") {
+            render::ShaderSource more = render::read_shader(folders, files.vertex);
             source.text += more.text;
             for (render::ShaderSource::Line line : more.lines)
                 source.lines.push_back({line.file + source.files.size(), line.number});
@@ -28,7 +25,10 @@ scene::ShaderDeclaration read_shader(const fs::path& folder, const std::string& 
         return scene::read_shader_declaration(name, source.text);
     } catch (const scene::ShaderDeclarationError& e) {
         const render::ShaderSource::Line& line = source.lines.at(static_cast<std::size_t>(e.line() - 1));
-        shader.error = source.files[line.file].string() + ":" + std::to_string(line.number) + ": " + e.what();
+        const render::ShaderFault fault{source.files[line.file], line.number, e.what()};
+        shader.error = fault.file.string() + ":" + std::to_string(fault.line) + ": " + fault.text;
+        if (faults != nullptr)
+            faults->emplace(name, fault);
     } catch (const render::ShaderError& e) {
         shader.error = e.what();
     }
@@ -37,10 +37,11 @@ scene::ShaderDeclaration read_shader(const fs::path& folder, const std::string& 
 
 } // namespace
 
-std::vector<scene::ShaderDeclaration> read_shader_list(const fs::path& folder) {
+std::vector<scene::ShaderDeclaration> read_shader_list(const render::ShaderFolders& folders,
+                                                       std::map<std::string, render::ShaderFault>* faults) {
     std::vector<scene::ShaderDeclaration> shaders;
-    for (const std::string& name : render::list_surface_shaders(folder))
-        shaders.push_back(read_shader(folder, name));
+    for (const std::string& name : render::list_surface_shaders(folders))
+        shaders.push_back(read_shader(folders, name, faults));
     return shaders;
 }
 

@@ -88,6 +88,10 @@ bool Window::should_close() const {
     return glfwWindowShouldClose(handle_) != 0;
 }
 
+void Window::keep_open() {
+    glfwSetWindowShouldClose(handle_, GLFW_FALSE);
+}
+
 void Window::framebuffer_size(int& width, int& height) const {
     glfwGetFramebufferSize(handle_, &width, &height);
 }

@@ -31,6 +31,8 @@ public:
     Kind kind() const { return kind_; }
     GLFWwindow* handle() const { return handle_; }
     bool should_close() const;
+    /// Takes the user's wish to close the window back.
+    void keep_open();
     void framebuffer_size(int& width, int& height) const;
     bool minimised() const;
     /// 1 for 96 dpi; the user's setting of the monitor that the window is on.

@@ -36,7 +36,7 @@ Json integrators() {
 
 Json shaders() {
     Json rows = Json::array();
-    for (const std::string& name : app::shipped_shaders())
+    for (const std::string& name : app::known_shaders())
         rows.push_back({{"name", name}});
     return rows;
 }

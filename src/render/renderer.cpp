@@ -68,7 +68,7 @@ constexpr const char* always_needed[] = {"background", "sphere", "plane", "pins"
 } // namespace
 
 struct Renderer::Parts {
-    explicit Parts(std::filesystem::path folder) : shaders(std::move(folder)) {}
+    explicit Parts(ShaderFolders folders) : shaders(std::move(folders)) {}
 
     ShaderLibrary shaders;
     TextureLibrary textures;
@@ -345,9 +345,9 @@ void Renderer::Parts::draw_pins(const Scene& what, DrawReport& report) {
     glDisable(GL_BLEND);
 }
 
-Renderer::Renderer(std::filesystem::path shader_folder) {
+Renderer::Renderer(ShaderFolders shaders) {
     require_gl();
-    parts_ = std::make_unique<Parts>(std::move(shader_folder));
+    parts_ = std::make_unique<Parts>(std::move(shaders));
     parts_->load();
 }
 
@@ -363,19 +363,20 @@ bool Renderer::refresh_textures() {
     return parts_->textures.refresh();
 }
 
-const std::filesystem::path& Renderer::shader_folder() const {
-    return parts_->shaders.folder();
+const ShaderFolders& Renderer::shader_folders() const {
+    return parts_->shaders.folders();
 }
 
 void Renderer::reload_shaders() {
-    ShaderLibrary fresh(parts_->shaders.folder());
-    std::swap(parts_->shaders, fresh);
-    try {
-        parts_->load();
-    } catch (const ShaderError&) {
-        std::swap(parts_->shaders, fresh);
-        throw;
-    }
+    parts_->shaders.reload();
+}
+
+void Renderer::reload_shaders(std::map<std::filesystem::path, std::string> edited) {
+    parts_->shaders.reload(std::move(edited));
+}
+
+std::vector<ShaderError> Renderer::shader_errors() const {
+    return parts_->shaders.errors();
 }
 
 /// One part of a split view, or the whole picture.

@@ -50,10 +50,10 @@ struct DrawReport {
 
 class Renderer {
 public:
-    /// Loads the shaders that every picture needs from a folder like the repository's shaders/. Throws
+    /// Loads the shaders that every picture needs from folders like the repository's shaders/. Throws
     /// std::runtime_error when the context is older than OpenGL 4.1, ShaderError for a shader that is missing or
     /// broken.
-    explicit Renderer(std::filesystem::path shader_folder);
+    explicit Renderer(ShaderFolders shaders);
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
@@ -63,10 +63,13 @@ public:
     /// missing or broken.
     DrawReport draw(const Scene& what, Target& target);
 
-    /// Reads the shader files anew. Throws ShaderError when one that every picture needs is broken; the old ones then
-    /// stay in use.
+    /// The shader files may have changed, or texts that stand for them (ShaderFolders::edited): the next draw takes
+    /// what compiles. What does not goes on as it was, see shader_errors().
     void reload_shaders();
-    const std::filesystem::path& shader_folder() const;
+    void reload_shaders(std::map<std::filesystem::path, std::string> edited);
+    /// What is wrong with shaders that were drawn with since the last reload, in the form that they had before it.
+    std::vector<ShaderError> shader_errors() const;
+    const ShaderFolders& shader_folders() const;
 
     /// What is wrong with the textures that were drawn, as far as anything is: each shows as a checker or the like.
     std::vector<std::string> texture_errors() const;

@@ -19,9 +19,9 @@ ShaderHandle compile(const ShaderSource& source, GLenum stage) {
     std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
     glGetShaderInfoLog(shader.id(), length, nullptr, log.data());
     const ShaderMessage message = locate(source, log);
-    const std::string place =
-        message.file.string() + (message.line > 0 ? ":" + std::to_string(message.line) : std::string());
-    throw ShaderError(place + ": the shader does not compile:\n" + message.text, message.file, message.line);
+    const ShaderFault& first = message.faults.front();
+    const std::string place = first.file.string() + (first.line > 0 ? ":" + std::to_string(first.line) : std::string());
+    throw ShaderError(place + ": the shader does not compile:\n" + message.text, message.faults);
 }
 
 ProgramHandle link(const ShaderHandle& vertex, const ShaderHandle& geometry, const ShaderHandle& fragment,
@@ -46,7 +46,8 @@ ProgramHandle link(const ShaderHandle& vertex, const ShaderHandle& geometry, con
         std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
         glGetProgramInfoLog(program.id(), length, nullptr, log.data());
         std::erase(log, '\0');
-        throw ShaderError(file.string() + ": the shader does not link:\n" + log, file, 0);
+        throw ShaderError(file.string() + ": the shader does not link:\n" + log,
+                          {{file, 0, "the shader does not link: " + log}});
     }
     const GLuint block = glGetUniformBlockIndex(program.id(), "Frame");
     if (block != GL_INVALID_INDEX)
@@ -56,34 +57,90 @@ ProgramHandle link(const ShaderHandle& vertex, const ShaderHandle& geometry, con
 
 } // namespace
 
-const Program& ShaderLibrary::find(const std::string& name, const std::string& vertex_file) {
-    const auto found = programs_.find(name);
-    if (found != programs_.end())
-        return found->second;
+const Program& ShaderLibrary::refuse(Entry& entry, const ShaderError& error) {
+    entry.error = error;
+    if (!entry.program)
+        throw error;
+    entry.fresh = true;
+    return *entry.program;
+}
 
-    const std::filesystem::path fragment_file = name + ".frag", geometry_file = name + ".geom";
-    const ShaderHandle fragment = compile(read_shader(folder_, fragment_file), GL_FRAGMENT_SHADER);
-    const ShaderHandle vertex = compile(read_shader(folder_, vertex_file), GL_VERTEX_SHADER);
-    ShaderHandle geometry;
-    std::error_code error;
-    if (std::filesystem::exists(folder_ / geometry_file, error))
-        geometry = compile(read_shader(folder_, geometry_file), GL_GEOMETRY_SHADER);
-    return programs_.emplace(name, Program(link(vertex, geometry, fragment, folder_ / fragment_file))).first->second;
+void ShaderLibrary::build(Entry& entry, const ProgramFiles& files) {
+    const ShaderSource fragment = read_shader(folders_, files.fragment), vertex = read_shader(folders_, files.vertex);
+    ShaderSource geometry;
+    if (!files.geometry.empty())
+        geometry = read_shader(folders_, files.geometry);
+    std::string text = fragment.text + '\0' + vertex.text + '\0' + geometry.text;
+    if (entry.program && text == entry.text)
+        return;
+    if (entry.error && text == entry.faulty_text)
+        throw ShaderError(*entry.error);
+    entry.faulty_text = text;
+    const ShaderHandle fragment_shader = compile(fragment, GL_FRAGMENT_SHADER),
+                       vertex_shader = compile(vertex, GL_VERTEX_SHADER);
+    ShaderHandle geometry_shader;
+    if (!files.geometry.empty())
+        geometry_shader = compile(geometry, GL_GEOMETRY_SHADER);
+    entry.program.emplace(link(vertex_shader, geometry_shader, fragment_shader, fragment.files.front()));
+    entry.text = std::move(text);
+}
+
+const Program& ShaderLibrary::find(const std::string& name, const ProgramFiles& files) {
+    Entry& entry = entries_[name];
+    if (entry.program && entry.fresh)
+        return *entry.program;
+    try {
+        build(entry, files);
+    } catch (const ShaderError& error) {
+        return refuse(entry, error);
+    }
+    entry.error.reset();
+    entry.faulty_text.clear();
+    entry.fresh = true;
+    return *entry.program;
+}
+
+const Program& ShaderLibrary::program(const std::string& name) {
+    ProgramFiles files{name + ".frag", name + ".vert", name + ".geom"};
+    if (!folders_.has(files.geometry))
+        files.geometry.clear();
+    return find(name, files);
 }
 
 const Program& ShaderLibrary::surface(const std::string& name) {
-    std::error_code error;
-    const bool known = std::filesystem::exists(folder_ / "cloth" / (name + ".frag"), error);
     const bool plain = !name.empty() && name.find_first_of("/\\") == std::string::npos;
-    if (!known || !plain) {
-        std::string names;
-        for (const std::string& other : list_surface_shaders(folder_))
-            names += (names.empty() ? "" : ", ") + other;
-        throw ShaderError("there is no shader \"" + name + "\" in " + folder_.string() + "; there are: " + names,
-                          folder_ / "cloth" / (name + ".frag"), 0);
-    }
-    const std::string own = "cloth/" + name + ".vert";
-    return find("cloth/" + name, std::filesystem::exists(folder_ / own, error) ? own : "cloth/default.vert");
+    const ProgramFiles files = surface_files(folders_, name);
+    if (plain && folders_.has(files.fragment))
+        return find("cloth/" + name, files);
+
+    std::string names, places;
+    for (const std::string& other : list_surface_shaders(folders_))
+        names += (names.empty() ? "" : ", ") + other;
+    for (const std::filesystem::path& folder : folders_.folders())
+        places += (places.empty() ? "" : " or ") + folder.string();
+    const std::string what = "there is no shader \"" + name + "\" in " + places;
+    const ShaderError error(what + "; there are: " + names, {{folders_.find(files.fragment), 0, what}});
+    if (!plain)
+        throw error;
+    return refuse(entries_["cloth/" + name], error);
+}
+
+void ShaderLibrary::reload() {
+    for (auto& [name, entry] : entries_)
+        entry.fresh = false;
+}
+
+void ShaderLibrary::reload(std::map<std::filesystem::path, std::string> edited) {
+    folders_.edited = std::move(edited);
+    reload();
+}
+
+std::vector<ShaderError> ShaderLibrary::errors() const {
+    std::vector<ShaderError> errors;
+    for (const auto& [name, entry] : entries_)
+        if (entry.fresh && entry.error)
+            errors.push_back(*entry.error);
+    return errors;
 }
 
 } // namespace clothlab::render

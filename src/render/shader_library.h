@@ -1,8 +1,11 @@
-// Programs built from the files of a shader folder, each compiled when it is first asked for.
+// Programs built from the files of shader folders, each compiled when it is first asked for, and kept when files become
+// faulty.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -38,21 +41,39 @@ public:
     /// The binding point of the uniform block Frame (shaders/common/frame.glsl).
     static constexpr GLuint frame_binding = 0;
 
-    explicit ShaderLibrary(std::filesystem::path folder) : folder_(std::move(folder)) {}
-    const std::filesystem::path& folder() const { return folder_; }
+    explicit ShaderLibrary(ShaderFolders folders) : folders_(std::move(folders)) {}
+    const ShaderFolders& folders() const { return folders_; }
 
-    /// The program of the files name.vert, name.frag and, where there is one, name.geom, below the folder. Throws
-    /// ShaderError, every time that it is asked for while the files stay as they are.
-    const Program& program(const std::string& name) { return find(name, name + ".vert"); }
-    /// The program of a cloth shader: cloth/name.frag with cloth/name.vert or else cloth/default.vert.
+    /// The program of the files name.vert, name.frag and, where there is one, name.geom, below the folders. After
+    /// reload(), texts that do not compile leave the program that was there before in use, and errors() tells of them.
+    /// Throws ShaderError when there has never been one.
+    const Program& program(const std::string& name);
+    /// The same for a cloth shader: see surface_files().
     const Program& surface(const std::string& name);
-    /// Forgets every program: the files are read anew.
-    void reload() { programs_.clear(); }
+
+    /// The files may have changed: each program is looked at anew when it is next asked for, and compiled anew when its
+    /// text is another one.
+    void reload();
+    /// The same, with other unsaved texts in place of files.
+    void reload(std::map<std::filesystem::path, std::string> edited);
+    /// What is wrong with the texts of programs that were asked for since the last reload and go on as they were before
+    /// it; by name.
+    std::vector<ShaderError> errors() const;
 
 private:
-    const Program& find(const std::string& name, const std::string& vertex_file);
-    std::filesystem::path folder_;
-    std::map<std::string, Program> programs_;
+    struct Entry {
+        std::optional<Program> program;   ///< the last that there was no error in
+        std::string text;                 ///< that it was made of
+        std::optional<ShaderError> error; ///< of what came after it
+        std::string faulty_text;          ///< that does not compile; known, so that it is not tried at every draw
+        bool fresh = false;               ///< looked at since the last reload
+    };
+    const Program& find(const std::string& name, const ProgramFiles& files);
+    void build(Entry& entry, const ProgramFiles& files);
+    /// Keeps the last program, or throws where there is none.
+    const Program& refuse(Entry& entry, const ShaderError& error);
+    ShaderFolders folders_;
+    std::map<std::string, Entry> entries_;
 };
 
 } // namespace clothlab::render

@@ -164,7 +164,7 @@ Scene load_scene(const std::filesystem::path& file) {
     return scene;
 }
 
-void save_scene(const Scene& scene, const std::filesystem::path& file) {
+void write_text_file(const std::string& text, const std::filesystem::path& file) {
     std::filesystem::path partial = file;
     partial += ".part";
     const auto fail = [&](const std::string& why) {
@@ -172,7 +172,6 @@ void save_scene(const Scene& scene, const std::filesystem::path& file) {
         std::filesystem::remove(partial, ignored);
         throw SceneError(file.string() + ": cannot be written: " + why);
     };
-    const std::string text = write_scene(scene);
     {
         std::ofstream out(partial, std::ios::binary | std::ios::trunc);
         out << text;
@@ -184,6 +183,10 @@ void save_scene(const Scene& scene, const std::filesystem::path& file) {
     std::filesystem::rename(partial, file, error);
     if (error)
         fail(error.message());
+}
+
+void save_scene(const Scene& scene, const std::filesystem::path& file) {
+    write_text_file(write_scene(scene), file);
 }
 
 } // namespace clothlab::scene

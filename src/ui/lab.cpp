@@ -7,6 +7,7 @@
 #include "ui/camera.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
+#include "ui/shader_editors.h"
 
 namespace clothlab::ui {
 namespace {
@@ -22,7 +23,7 @@ struct Panel {
 constexpr ImGuiID dockspace = 0x0C107;
 
 constexpr Panel panels[] = {
-#define CLOTHLAB_PANEL(id, title, icon) {PanelId::id, title, icon "  " title "###" title, draw_##id},
+#define CLOTHLAB_PANEL(id, title, icon, at_start) {PanelId::id, title, icon "  " title "###" title, draw_##id},
 #include "ui/panels.def"
 #undef CLOTHLAB_PANEL
 };
@@ -36,8 +37,14 @@ void draw_panel(Lab& lab, const Panel& panel) {
     const bool viewport = panel.id == PanelId::viewport;
     if (viewport)
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-    const bool visible = ImGui::Begin(panel.window, &lab.open[index],
-                                      viewport ? ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse : 0);
+    ImGuiWindowFlags flags = 0;
+    if (viewport)
+        flags = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+    if (panel.id == PanelId::shader && has_unsaved_shaders(lab))
+        flags = ImGuiWindowFlags_UnsavedDocument;
+    // Where a layout of the user's own does not know the panel.
+    ImGui::SetNextWindowSize({ImGui::GetFontSize() * 48, ImGui::GetFontSize() * 26}, ImGuiCond_FirstUseEver);
+    const bool visible = ImGui::Begin(panel.window, &lab.open[index], flags);
     if (viewport)
         ImGui::PopStyleVar();
     if (visible) {
@@ -97,9 +104,12 @@ void draw(Lab& lab) {
     draw_menu(lab);
     draw_status_bar(lab);
     ImGui::DockSpaceOverViewport(dockspace);
+    follow_shader_files(lab);
     for (const Panel& panel : panels)
         draw_panel(lab, panel);
     draw_output_window(lab);
+    pass_on_shader_edits(lab);
+    draw_quit_question(lab);
 }
 
 } // namespace clothlab::ui

@@ -16,6 +16,7 @@
 #include "scene/shader_parameters.h"
 #include "sim/snapshot.h"
 #include "ui/output.h"
+#include "ui/shader_work.h"
 
 namespace clothlab::ui {
 
@@ -68,10 +69,12 @@ struct PauseOnTrouble {
 struct Undo {};
 struct Redo {};
 struct ResetLayout {};
-struct Quit {};
-using Request =
-    std::variant<OpenScene, SaveScene, BrowseForScene, BrowseForTexture, TakePicture, Record, EndRecording, Play,
-                 StepFrame, StepSubstep, Restart, SetSpeed, PauseOnTrouble, Undo, Redo, ResetLayout, Quit>;
+struct Quit {
+    bool drop_unsaved = false; ///< shader texts; otherwise the user is asked about them
+};
+using Request = std::variant<OpenScene, SaveScene, BrowseForScene, BrowseForTexture, TakePicture, Record, EndRecording,
+                             Play, StepFrame, StepSubstep, Restart, SetSpeed, PauseOnTrouble, Undo, Redo, ResetLayout,
+                             ShaderRequest, Quit>;
 
 struct Message {
     bool error = false;
@@ -93,12 +96,19 @@ struct PanelReport {
 };
 
 enum class PanelId : std::uint8_t {
-#define CLOTHLAB_PANEL(id, title, icon) id,
+#define CLOTHLAB_PANEL(id, title, icon, at_start) id,
 #include "ui/panels.def"
 #undef CLOTHLAB_PANEL
     count
 };
 inline constexpr std::size_t panel_count = static_cast<std::size_t>(PanelId::count);
+
+/// The panels that are open when the lab starts and in the default layout.
+inline constexpr std::array<bool, panel_count> open_at_start = {
+#define CLOTHLAB_PANEL(id, title, icon, at_start) at_start,
+#include "ui/panels.def"
+#undef CLOTHLAB_PANEL
+};
 
 struct Lab {
     scene::Scene scene;         ///< as it is now: panels write here
@@ -133,7 +143,8 @@ struct Lab {
 
     std::deque<Message> messages; ///< newest last; the viewport shows them until they are dismissed
     std::vector<Request> requests;
-    std::array<bool, panel_count> open{};
+    ShaderWork shader_work;
+    std::array<bool, panel_count> open = open_at_start;
     std::array<PanelReport, panel_count> report{};
     bool status_bar_drawn = false;
 
@@ -145,6 +156,9 @@ bool modified(const Lab& lab);
 
 /// The shader that the cloth is drawn with; none when no file declares it.
 const scene::ShaderDeclaration* shader_in_use(const Lab& lab);
+
+/// Whether the shader panel has texts that are not in their files.
+bool has_unsaved_shaders(const Lab& lab);
 
 /// Changes the number of points along width or height and moves the pins to where they belong on the new grid.
 void resize_grid(scene::Scene& scene, int columns, int rows);

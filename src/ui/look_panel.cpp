@@ -23,14 +23,14 @@ void spring_switch(Lab& lab, sim::SpringKind kind, const char* label, bool& on) 
     ImGui::Dummy({2 * h, h});
 }
 
-/// A list of the shaders by title; true when another was chosen.
-bool shader_list(const Lab& lab, const char* id, std::string& chosen) {
+/// A list of the shaders by title, with some space left free at its right; true when another was chosen.
+bool shader_list(const Lab& lab, const char* id, std::string& chosen, float free = 0) {
     std::string title = chosen;
     for (const scene::ShaderDeclaration& shader : lab.shaders)
         if (shader.name == chosen)
             title = shader.title;
     bool changed = false;
-    ImGui::SetNextItemWidth(-1);
+    ImGui::SetNextItemWidth(free > 0 ? -free : -1);
     if (ImGui::BeginCombo(id, title.c_str(), ImGuiComboFlags_HeightLarge)) {
         for (const scene::ShaderDeclaration& shader : lab.shaders) {
             if (ImGui::Selectable((shader.title + "##" + shader.name).c_str(), shader.name == chosen)) {
@@ -94,8 +94,11 @@ void split_view(Lab& lab) {
 
 void draw_look(Lab& lab) {
     scene::Look& look = lab.scene.look;
-    shader_list(lab, "##shader", look.shader);
+    shader_list(lab, "##shader", look.shader, ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x);
     tooltip("How the cloth is drawn. Key W changes between wireframe and the last shader.");
+    ImGui::SameLine();
+    if (icon_button(ICON_FA_CODE, "##edit", "Edit the shader: opens the panel Shader"))
+        lab.open[static_cast<std::size_t>(PanelId::shader)] = true;
     const scene::ShaderDeclaration* shader = shader_in_use(lab);
     if (shader)
         shader_parameters(lab, *shader);

@@ -132,7 +132,7 @@ void file_menu(Lab& lab, Windows& windows) {
 
 void view_menu(Lab& lab) {
     std::size_t index = 0;
-#define CLOTHLAB_PANEL(id, title, icon) ImGui::MenuItem(icon "  " title, nullptr, &lab.open[index++]);
+#define CLOTHLAB_PANEL(id, title, icon, at_start) ImGui::MenuItem(icon "  " title, nullptr, &lab.open[index++]);
 #include "ui/panels.def"
 #undef CLOTHLAB_PANEL
     ImGui::Separator();
@@ -141,6 +141,9 @@ void view_menu(Lab& lab) {
 }
 
 bool key(ImGuiKeyChord chord, ImGuiInputFlags flags = 0) {
+    // ImGui holds letters back from shortcuts for its own text fields only, not for the text editor.
+    if (ImGui::GetIO().WantTextInput && (chord & ImGuiMod_Ctrl) == 0 && (chord & ~ImGuiMod_Mask_) < ImGuiKey_F1)
+        return false;
     return ImGui::Shortcut(chord, ImGuiInputFlags_RouteGlobal | flags);
 }
 
@@ -176,6 +179,7 @@ const std::vector<Shortcut>& shortcuts() {
         {"Ctrl+click on a slider", "type a value, also beyond its range"},
         {"Ctrl+Z, Ctrl+Shift+Z", "undo and redo a change of parameters"},
         {"Ctrl+O, Ctrl+S, Ctrl+Shift+S", "open, save, save as"},
+        {"Ctrl+S, Ctrl+Z, Ctrl+F in Shader", "save, undo, find in the shader's text"},
         {"F12", "save a picture under the next free name"},
         {"Shift+F12", "pictures and films: size, background, recording"},
         {"F1", "these keys"},

@@ -1,16 +1,22 @@
 // The panels' functions, from the list of panels; each draws the inside of its window.
 #pragma once
 
+#include <imgui.h>
+
 #include "ui/lab.h"
 
 namespace clothlab::ui {
 
-#define CLOTHLAB_PANEL(id, title, icon) void draw_##id(Lab& lab);
+#define CLOTHLAB_PANEL(id, title, icon, at_start) void draw_##id(Lab& lab);
 #include "ui/panels.def"
 #undef CLOTHLAB_PANEL
 
 void draw_menu(Lab& lab);
 void draw_status_bar(Lab& lab);
+/// What is wrong with shaders, over the lower edge of a picture at `corner`, until it is mended.
+void draw_shader_faults(Lab& lab, ImVec2 corner, ImVec2 size);
+/// Asks what is to become of unsaved shaders when the lab is to be closed.
+void draw_quit_question(Lab& lab);
 /// Keys of the whole window: see shortcuts().
 void handle_keys(Lab& lab);
 

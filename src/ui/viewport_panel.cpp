@@ -74,6 +74,7 @@ void draw_viewport(Lab& lab) {
     const float bar = draw_camera_bar(lab, corner, size.x);
     draw_recording_badge(lab, corner.x, corner.y + size.y);
     draw_messages(lab, {corner.x, corner.y + bar}, size.x);
+    draw_shader_faults(lab, corner, size);
 }
 
 } // namespace clothlab::ui

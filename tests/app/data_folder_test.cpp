@@ -12,24 +12,25 @@ using namespace clothlab::test;
 
 namespace {
 
-/// Sets CLOTHLAB_DATA while it lives.
+/// Sets an environment variable while it lives.
 class DataVariable {
 public:
-    explicit DataVariable(const std::string& value) {
-        if (const char* old = std::getenv("CLOTHLAB_DATA"))
+    explicit DataVariable(const std::string& value, const char* name = "CLOTHLAB_DATA") : name_(name) {
+        if (const char* old = std::getenv(name))
             old_ = old;
-        ::setenv("CLOTHLAB_DATA", value.c_str(), 1);
+        ::setenv(name, value.c_str(), 1);
     }
     ~DataVariable() {
         if (old_)
-            ::setenv("CLOTHLAB_DATA", old_->c_str(), 1);
+            ::setenv(name_, old_->c_str(), 1);
         else
-            ::unsetenv("CLOTHLAB_DATA");
+            ::unsetenv(name_);
     }
     DataVariable(const DataVariable&) = delete;
     DataVariable& operator=(const DataVariable&) = delete;
 
 private:
+    const char* name_;
     std::optional<std::string> old_;
 };
 
@@ -67,6 +68,22 @@ TEST_CASE("The shipped shaders are wireframe and the files of shaders/cloth/") {
     write_file(folder / "shaders" / "cloth" / "default.vert", "");
     const DataVariable data(folder.path().string());
     REQUIRE(app::shipped_shaders() == std::vector<std::string>{"wireframe", "toon"});
+}
+
+TEST_CASE("The user's shaders stand beside the shipped ones, in a folder that is looked in first") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "shaders" / "cloth");
+    write_file(folder / "shaders" / "cloth" / "toon.frag", "");
+    const DataVariable data(folder.path().string());
+    const DataVariable home((folder / "home").string(), "XDG_DATA_HOME");
+    const std::filesystem::path own = folder / "home" / "clothlab" / "shaders";
+    REQUIRE(app::user_shader_folder() == own);
+    REQUIRE(app::shader_folders() == std::vector{own, folder / "shaders"});
+    REQUIRE(app::known_shaders() == app::shipped_shaders());
+    std::filesystem::create_directories(own / "cloth");
+    write_file(own / "cloth" / "silk.frag", "");
+    write_file(own / "cloth" / "toon.frag", "");
+    REQUIRE(app::known_shaders() == std::vector<std::string>{"silk", "toon"});
 }
 
 TEST_CASE("A folder that lacks a file is passed over for the next") {

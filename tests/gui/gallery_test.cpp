@@ -74,7 +74,7 @@ std::set<std::string> names_in(const fs::path& folder) {
 
 /// The caption of a two-pins run with these settings on top.
 cli::Caption caption_of(const std::string& scene_name, int frame, std::vector<std::string> settings) {
-    const auto shaders = app::read_shader_list(app::data_path("shaders"));
+    const auto shaders = app::read_shader_list({app::data_path("shaders")});
     const scene::Scene scene = cli::load_figure({"x", "x", scene_name, frame, {}}, settings, shaders);
     const auto simulation = sim::Simulation::create(scene.simulation);
     simulation->watch(true);
@@ -94,7 +94,7 @@ std::vector<std::string> small_with(std::vector<std::string> settings) {
 } // namespace
 
 TEST_CASE("Every figure of the gallery names a scene, a shader and parameters that exist, and a file of its own") {
-    const auto shaders = app::read_shader_list(app::data_path("shaders"));
+    const auto shaders = app::read_shader_list({app::data_path("shaders")});
     static const std::regex allowed("[a-z0-9.-]+");
     std::set<std::string> names;
     for (const Section& section : cli::gallery_sections()) {

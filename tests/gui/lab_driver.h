@@ -18,13 +18,9 @@ namespace clothlab::test {
 class LabDriver {
 public:
     explicit LabDriver(const std::string& scene = "sphere-medium", int width = 1280, int height = 800,
-                       bool keep_layout = false) {
-        app::LabOptions options;
-        options.window = app::Window::Kind::offscreen;
-        options.width = width;
-        options.height = height;
-        options.keep_layout = keep_layout;
-        options.scale = 1;
+                       bool keep_layout = false)
+        : LabDriver(scene, options(width, height, keep_layout)) {}
+    LabDriver(const std::string& scene, const app::LabOptions& options) {
         const auto file = app::scene_path(scene);
         app_ = std::make_unique<app::LabApp>(options, scene::load_scene(file), file);
         engine_ = ImGuiTestEngine_CreateContext();
@@ -45,7 +41,18 @@ public:
     LabDriver(const LabDriver&) = delete;
     LabDriver& operator=(const LabDriver&) = delete;
 
-    /// Lets a user act; true when every widget was found and every action could be done.
+    static app::LabOptions options(int width, int height, bool keep_layout = false) {
+        app::LabOptions options;
+        options.window = app::Window::Kind::offscreen;
+        options.width = width;
+        options.height = height;
+        options.keep_layout = keep_layout;
+        options.scale = 1;
+        return options;
+    }
+
+    /// Lets a user act; true when every widget was found and every action could be done. False when the lab was closed
+    /// meanwhile.
     bool act(std::function<void(ImGuiTestContext*)> user) {
         ImGuiTest* test = IM_REGISTER_TEST(engine_, "lab", "act");
         test->UserData = &user;
@@ -54,16 +61,19 @@ public:
         };
         ImGuiTestEngine_QueueTest(engine_, test);
         while (!ImGuiTestEngine_IsTestQueueEmpty(engine_))
-            frame();
+            if (!frame())
+                return false;
         const bool done = test->Output.Status == ImGuiTestStatus_Success;
         ImGuiTestEngine_UnregisterTest(engine_, test);
         settle();
         return done;
     }
 
-    void frame() {
-        app_->frame();
+    /// False once the lab is closed.
+    bool frame() {
+        const bool open = app_->frame();
         ImGuiTestEngine_PostSwap(engine_);
+        return open;
     }
     /// Until the simulation has done what it was asked for, the camera is where it was sent, and the panels show it.
     void settle() {

@@ -43,7 +43,7 @@ inline render::View vertical_view(float height) {
 
 /// A shipped shader with the parameters that it declares, all at their defaults but for those given.
 inline render::Surface shader_of(const std::string& name, const scene::ShaderValues& values = {}) {
-    static const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list(shader_folder);
+    static const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list({shader_folder});
     scene::Look look;
     look.shaders[name] = values;
     scene::check_shader_values(look, shaders, "test");

@@ -45,14 +45,14 @@ TEST_CASE("The messages of every driver are understood", "[shaders]") {
     for (const char* log : {"0:12(5): error: `foo' undeclared", "0(12) : error C1008: undefined variable \"foo\"",
                             "ERROR: 0:12: 'foo' : undeclared identifier"}) {
         const render::ShaderMessage message = render::locate(source, log);
-        CHECK(message.file == "x/light.glsl");
-        CHECK(message.line == 12);
+        CHECK(message.faults.front().file == "x/light.glsl");
+        CHECK(message.faults.front().line == 12);
         CHECK(message.text.find("x/light.glsl:12") != std::string::npos);
         CHECK(message.text.find("foo") != std::string::npos);
     }
-    CHECK(render::locate(source, "it went wrong").file == "x/main.frag");
-    CHECK(render::locate(source, "it went wrong").line == 0);
-    CHECK(render::locate(source, "0:3(1): warning: unused\n0:4(1): error: bad").line == 4);
+    CHECK(render::locate(source, "it went wrong").faults.front().file == "x/main.frag");
+    CHECK(render::locate(source, "it went wrong").faults.front().line == 0);
+    CHECK(render::locate(source, "0:3(1): warning: unused\n0:4(1): error: bad").faults.front().line == 4);
 }
 
 TEST_CASE("A broken shader is reported with its file and line, and nothing is drawn", "[render]") {
@@ -105,8 +105,8 @@ TEST_CASE("A broken shader is reported with its file and line, and nothing is dr
     CHECK(studio.target.read().pixel(80, 45)[0] == 255);
 
     write_file(folder / "cloth/wireframe.geom", "#version 330 core\nnonsense\n");
-    CHECK_THROWS_AS(renderer.reload_shaders(), render::ShaderError);
-    renderer.draw(scene, studio.target);
+    renderer.reload_shaders();
+    renderer.draw(scene, studio.target); // with the one that there was
     CHECK_THROWS_AS(render::Renderer(folder.path()), render::ShaderError);
     CHECK_THROWS_AS(render::Renderer(folder / "missing"), render::ShaderError);
 }

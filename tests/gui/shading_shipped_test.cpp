@@ -14,7 +14,7 @@ using namespace clothlab::test;
 TEST_CASE("Every shader is there, its declaration is right, and every parameter does something", "[shading]") {
     const GlContext context;
     render::ShaderLibrary library(shader_folder);
-    const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list(shader_folder);
+    const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list({shader_folder});
     std::set<std::string> names;
     for (const scene::ShaderDeclaration& shader : shaders) {
         INFO(shader.name << ": " << shader.error);
@@ -49,7 +49,7 @@ TEST_CASE("Every shader is there, its declaration is right, and every parameter 
 
 TEST_CASE("Every shader draws every shipped scene, its spheres too, at any size", "[shading]") {
     Studio studio;
-    const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list(shader_folder);
+    const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list({shader_folder});
     for (const std::filesystem::path& file : app::shipped_scenes()) {
         INFO(file);
         scene::Scene scene = scene::load_scene(file);

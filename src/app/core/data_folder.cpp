@@ -68,4 +68,30 @@ std::vector<std::string> shipped_shaders() {
     return names;
 }
 
+fs::path user_shader_folder() {
+    if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data)
+        return fs::path(data) / "clothlab" / "shaders";
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return fs::path(home) / ".local" / "share" / "clothlab" / "shaders";
+    return {};
+}
+
+std::vector<fs::path> shader_folders() {
+    std::vector<fs::path> folders;
+    if (fs::path own = user_shader_folder(); !own.empty())
+        folders.push_back(std::move(own));
+    folders.push_back(data_path("shaders"));
+    return folders;
+}
+
+std::vector<std::string> known_shaders() {
+    std::vector<std::string> names = shipped_shaders();
+    if (const fs::path own = user_shader_folder(); !own.empty())
+        for (const fs::path& file : files_in(own / "cloth", ".frag"))
+            names.push_back(file.stem().string());
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
 } // namespace clothlab::app

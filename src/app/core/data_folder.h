@@ -23,4 +23,16 @@ std::vector<std::filesystem::path> shipped_scenes();
 /// The names of the shaders that the program comes with: a file shaders/cloth/NAME.frag each.
 std::vector<std::string> shipped_shaders();
 
+/// Where the user's own shaders lie, and changed copies of shipped ones: $XDG_DATA_HOME/clothlab/shaders or
+/// ~/.local/share/clothlab/shaders, with the same files in it as in the shipped folder. Empty when there is no home. It
+/// is made when the first shader is saved.
+std::filesystem::path user_shader_folder();
+
+/// The folders that shaders are looked for in: the user's, where there is a home, and the shipped one, which the first
+/// hides files of.
+std::vector<std::filesystem::path> shader_folders();
+
+/// The names of all shaders, the user's and the shipped ones, sorted.
+std::vector<std::string> known_shaders();
+
 } // namespace clothlab::app

@@ -115,7 +115,7 @@ class Gallery {
 public:
     Gallery(const std::vector<Section>& sections, const GalleryOptions& options)
         : sections_(sections), options_(options), items_(items_of(sections, options.only)),
-          shaders_(app::read_shader_list(app::data_path("shaders"))),
+          shaders_(app::read_shader_list({app::data_path("shaders")})),
           faces_{render::Typeface(app::data_path("fonts/Roboto-Regular.ttf")),
                  render::Typeface(app::data_path("fonts/Roboto-Bold.ttf"))} {}
 
@@ -124,7 +124,7 @@ public:
         std::vector<Run> runs = load();
         {
             const app::Window window(app::Window::Kind::offscreen, options_.width, options_.height, "clothlab");
-            render::Renderer renderer(app::data_path("shaders"));
+            render::Renderer renderer(render::ShaderFolders{app::data_path("shaders")});
             render::Target target(options_.width, options_.height);
             work(runs, renderer, target, err);
         }

@@ -36,7 +36,9 @@ int lab(const LabArguments& given) {
         scene.look.sphere_longitude_lines = arguments.longitude_lines;
     const auto file = app::scene_path(arguments.scene.scene);
     try {
-        app::LabApp window({}, scene, file);
+        app::LabOptions options;
+        options.user_shaders = app::user_shader_folder();
+        app::LabApp window(options, scene, file);
         window.simulation().play(true);
         window.run();
         return 0;
@@ -47,6 +49,7 @@ int lab(const LabArguments& given) {
     app::LabOptions options;
     options.window = app::Window::Kind::offscreen;
     options.keep_layout = false;
+    options.user_shaders = app::user_shader_folder();
     app::LabApp picture(options, std::move(scene), file);
     picture.show_frame(draped_frame);
     render::write_png(picture.picture(), arguments.picture);
@@ -77,6 +80,7 @@ private:
         options.width = a.width;
         options.height = a.height;
         options.keep_layout = false;
+        options.user_shaders = app::user_shader_folder();
         return options;
     }
     app::LabApp lab_;
@@ -86,7 +90,7 @@ class SceneCamera final : public Camera {
 public:
     SceneCamera(const RenderArguments& a, scene::Scene scene)
         : scene_(std::move(scene)), window_(app::Window::Kind::offscreen, a.width, a.height, "clothlab"),
-          shaders_(app::read_shader_list(app::data_path("shaders"))), renderer_(app::data_path("shaders")),
+          shaders_(app::read_shader_list(app::shader_folders())), renderer_(app::shader_folders()),
           maker_(renderer_, a.width, a.height, app::samples_of(scene_.look.multisampling, 4), a.transparent),
           simulation_(sim::Simulation::create(scene_.simulation)) {}
     render::Image picture(int frame) override {
@@ -154,7 +158,7 @@ int render(const RenderArguments& a) {
         scene.camera = scene::read_camera(scene::read_text_file(a.camera), a.camera);
     if (!a.shader.empty())
         scene.look.shader = a.shader;
-    const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list(app::data_path("shaders"));
+    const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list(app::shader_folders());
     app::find_shader(shaders, scene.look.shader);
     if (scene.look.split.on)
         app::find_shader(shaders, scene.look.split.shader);
