@@ -16,6 +16,7 @@ float layered(vec2 uv) {
 }
 
 void main() {
+    shines_through = true;
     vec2 uv = layer_uv(surface_uv), texel = 1.0 / vec2(textureSize(height_map, 0));
     float here = layered(uv);
     float dU = (layered(uv + vec2(texel.x, 0.0)) - here) * k_h * k_n;

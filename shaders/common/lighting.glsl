@@ -4,6 +4,10 @@ const int lights = 2;
 
 uniform sampler2DShadow shadow_map;
 
+// A shader sets it before it asks for light when light on the far side counts, so that the surface is no shadow to
+// itself.
+bool shines_through = false;
+
 // The share of the first lamp's light that gets to a point on a surface, past cloth and spheres.
 float shadow(vec3 position, vec3 to_light) {
     if (frame.shadow.x == 0.0) return 1.0;
@@ -12,7 +16,7 @@ float shadow(vec3 position, vec3 to_light) {
     // of the surface, the further the more the light grazes it.
     vec3 up = cross(dFdx(position), dFdy(position));
     up *= inversesqrt(max(dot(up, up), 1e-30));
-    if (dot(up, direction_to_eye(position)) < 0.0) up = -up;
+    if (dot(up, shines_through ? to_light : direction_to_eye(position)) < 0.0) up = -up;
     float cosine = dot(up, to_light);
     float ahead = frame.shadow.y * distance(frame.lights[0].xyz, position) * sqrt(max(0.01, 1.0 - cosine * cosine));
     vec4 at = frame.to_shadow * vec4(position + ahead * up, 1.0);

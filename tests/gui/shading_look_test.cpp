@@ -119,6 +119,19 @@ TEST_CASE("Layers of translucent cloth are blended from back to front, seen from
     }
 }
 
+TEST_CASE("A lamp with a shadow shines through translucent cloth, which does not shade itself", "[shading]") {
+    Studio studio;
+    const sim::Snapshot cloth = flat_cloth(4, 4);
+    render::Scene scene = scene_of(cloth, -2);
+    set_two_lamps(scene.options);
+    scene.options.shadow = true;
+    scene.options.surface = shader_of("translucent", {{"k_h", 0.0}, {"ks", 0.0}, {"through", 0.8}, {"opacity", 1.0}});
+    const render::Image image = studio.draw(scene);
+    const glm::vec3 at = seen_at(scene.view, image, 80, 45, 0), down(0, -1, 0);
+    const float light = 0.8f * Lighting{scene.options, scene.view.eye, at, down}.behind();
+    check_pixel(image, 80, 45, render::linear(render::colour(0x5CC2B0)) * light);
+}
+
 TEST_CASE("Translucent spheres show their far side and the plane behind", "[shading]") {
     Studio studio;
     const std::vector<sim::Collider> sphere = {sim::Sphere{{0, 0, 0}, 0.5, 0}};
