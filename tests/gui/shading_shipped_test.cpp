@@ -47,6 +47,29 @@ TEST_CASE("Every shader is there, its declaration is right, and every parameter 
                                          "wireframe-strain"});
 }
 
+TEST_CASE("The documentation shows every shader in a picture, and its example of one's own works", "[shading]") {
+    const std::string text = read_file(checkout() / "docs/shaders.md");
+    for (const std::string& name : render::list_surface_shaders(shader_folder)) {
+        INFO(name);
+        const std::string picture = "pictures/shaders/" + name + ".png";
+        CHECK(text.find("](" + picture + ")") != std::string::npos);
+        CHECK(text.find("--shader " + name + " ") != std::string::npos);
+        CHECK(std::filesystem::exists(checkout() / "docs" / picture));
+    }
+    const std::size_t begin = text.find("    #version 330 core"), end = text.find("**Declarations**");
+    REQUIRE(begin < end);
+    const TemporaryFolder folder;
+    std::filesystem::copy(shader_folder, folder / "shaders", std::filesystem::copy_options::recursive);
+    write_file(folder / "shaders/cloth/example.frag", text.substr(begin, end - begin));
+    const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list(folder / "shaders");
+    const scene::ShaderDeclaration& example = app::find_shader(shaders, "example");
+    CHECK(example.error.empty());
+    CHECK(example.find("count"));
+    const GlContext context;
+    render::ShaderLibrary library(folder / "shaders");
+    CHECK(glGetUniformLocation(library.surface("example").id(), "count") >= 0);
+}
+
 TEST_CASE("Every shader draws every shipped scene, its spheres too, at any size", "[shading]") {
     Studio studio;
     const std::vector<scene::ShaderDeclaration> shaders = app::read_shader_list({shader_folder});
@@ -65,6 +88,7 @@ TEST_CASE("Every shader draws every shipped scene, its spheres too, at any size"
             CHECK(snapshot.quantity.empty() == shader.quantity.empty());
             for (const int size : {1, 48}) {
                 studio.target.resize(size, size);
+                scene.look.shadow = size > 1;
                 const render::Image image =
                     studio.draw(app::to_render(scene, shaders, &snapshot, 1)); // checks OpenGL's errors
                 CHECK((shader.lines || studio.report.cloth_triangles > 0));
