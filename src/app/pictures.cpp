@@ -202,8 +202,10 @@ void Pictures::record(const ui::Record& wanted) {
             sink = std::make_unique<Film>(file, pictures.width(), pictures.height(), pace.rate);
         else
             sink = std::make_unique<PictureSequence>(SequenceName(file));
-        if (o.from_start)
+        if (o.from_start) {
+            simulation_.play(false); // or the new run could take a frame before the recorder has its first
             simulation_.start(lab_.scene.simulation);
+        }
         recorder_ = std::make_unique<Recorder>(RecordingPlan{pace.every, pace.pictures}, simulation_,
                                                std::move(pictures), std::move(sink));
         recording_file_ = file;

@@ -61,13 +61,13 @@ TEST_CASE("The shipped scenes are the JSON files of scenes/, by name") {
     REQUIRE(app::shipped_scenes() == std::vector{folder / "scenes" / "a.json", folder / "scenes" / "b.json"});
 }
 
-TEST_CASE("The shipped shaders are wireframe and the files of shaders/cloth/") {
+TEST_CASE("The shipped shaders are the files of shaders/cloth/") {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder / "shaders" / "cloth");
     write_file(folder / "shaders" / "cloth" / "toon.frag", "");
     write_file(folder / "shaders" / "cloth" / "default.vert", "");
     const DataVariable data(folder.path().string());
-    REQUIRE(app::shipped_shaders() == std::vector<std::string>{"wireframe", "toon"});
+    REQUIRE(app::shipped_shaders() == std::vector<std::string>{"toon"});
 }
 
 TEST_CASE("The user's shaders stand beside the shipped ones, in a folder that is looked in first") {

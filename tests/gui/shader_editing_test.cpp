@@ -73,13 +73,16 @@ struct ShaderLab {
         return std::any_of(lab().shaders.begin(), lab().shaders.end(),
                            [&](const scene::ShaderDeclaration& s) { return s.name == name; });
     }
-    /// The colour of the cloth's middle in the window's picture.
+    /// The colour of the cloth's middle in the viewport's picture, over which the window shows what is wrong.
     std::vector<int> colour() const {
-        const ui::PanelReport& at = lab().report[static_cast<std::size_t>(ui::PanelId::viewport)];
+        const int width = lab().viewport_width, height = lab().viewport_height;
+        std::vector<std::uint8_t> rgba(static_cast<std::size_t>(4 * width * height));
+        glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(lab().viewport_texture));
+        glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+        glBindTexture(GL_TEXTURE_2D, 0);
         const render::PixelBox& box = driver->app().draw_report().cloth_box;
-        const render::Image picture = driver->app().picture();
-        const int left = static_cast<int>(at.x), top = static_cast<int>(at.y + at.height) - lab().viewport_height;
-        const std::uint8_t* p = picture.pixel(left + (box.min_x + box.max_x) / 2, top + (box.min_y + box.max_y) / 2);
+        const int x = (box.min_x + box.max_x) / 2, y = height - 1 - (box.min_y + box.max_y) / 2;
+        const std::uint8_t* p = &rgba[static_cast<std::size_t>(4 * (y * width + x))];
         return {p[0], p[1], p[2]};
     }
     /// Opens the panel with the cursor at the start of a line of a file.
