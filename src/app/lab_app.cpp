@@ -154,20 +154,24 @@ void LabApp::take_published() {
         simulation_.watch_stability(watched);
     watching_stability_ = watched;
     tell_legend();
-    const sim::PointQuantity quantity = quantity_of(lab_.scene.look, lab_.shaders);
-    if (quantity != watching_quantity_)
-        simulation_.watch_quantity(quantity);
-    watching_quantity_ = quantity;
+    const sim::SnapshotExtras wanted = extras_of(lab_.scene.look, lab_.shaders);
+    const std::array quantities{wanted.quantity, wanted.second_quantity};
+    if (quantities != watching_quantities_)
+        simulation_.watch_quantity(wanted.quantity, wanted.second_quantity);
+    watching_quantities_ = quantities;
 }
 
 void LabApp::tell_legend() {
-    const scene::ShaderDeclaration* shader = ui::shader_in_use(lab_);
-    const scene::ShaderParameter* map = shader && shader->legend ? shader->find(shader->legend->map) : nullptr;
-    const std::string name = map ? std::get<std::string>(value_of(lab_.scene.look, *shader, *map)) : std::string();
-    if (name == legend_map_)
-        return;
-    legend_map_ = name;
-    lab_.legend_colours = name.empty() ? std::vector<std::array<float, 3>>() : ramp_colours(name);
+    const auto tell = [&](const scene::ShaderDeclaration* shader, std::string& told,
+                          std::vector<std::array<float, 3>>& colours) {
+        const scene::ShaderParameter* map = shader && shader->legend ? shader->find(shader->legend->map) : nullptr;
+        const std::string name = map ? std::get<std::string>(value_of(lab_.scene.look, *shader, *map)) : std::string();
+        if (name != told)
+            colours = name.empty() ? std::vector<std::array<float, 3>>() : ramp_colours(name);
+        told = name;
+    };
+    tell(ui::shader_in_use(lab_), legend_map_, lab_.legend_colours);
+    tell(ui::shader_on_the_right(lab_), split_legend_map_, lab_.split_legend_colours);
 }
 
 void LabApp::tell_trouble(const sim::Diagnostics& d) {

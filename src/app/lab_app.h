@@ -10,8 +10,8 @@
 #include "app/core/history.h"
 #include "app/core/simulation_thread.h"
 #include "app/gui/imgui_layer.h"
-#include "app/pictures.h"
 #include "app/gui/shader_desk.h"
+#include "app/pictures.h"
 #include "app/window.h"
 #include "render/renderer.h"
 #include "ui/lab.h"
@@ -90,8 +90,8 @@ private:
     std::string refusal_;                ///< the simulation's last error that has been shown
     sim::Status told_ = sim::Status::ok; ///< what the user knows of the run's health
     bool watching_stability_ = false;
-    std::string legend_map_; ///< whose colours lab_.legend_colours are
-    sim::PointQuantity watching_quantity_ = sim::PointQuantity::none;
+    std::string legend_map_, split_legend_map_; ///< whose colours lab_.legend_colours and the other ones are
+    std::array<sim::PointQuantity, 2> watching_quantities_{};
 
     // What the viewport shows; while all of it stays the same, it is not drawn again.
     struct Shown {

@@ -80,10 +80,17 @@ int samples_of(scene::Multisampling choice, int automatic) {
     return automatic;
 }
 
-sim::PointQuantity quantity_of(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders) {
-    const scene::ShaderDeclaration* shader = find(shaders, look.shader);
-    const auto quantity = shader ? sim::find_point_quantity(shader->quantity) : std::nullopt;
-    return quantity.value_or(sim::PointQuantity::none);
+sim::SnapshotExtras extras_of(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders) {
+    const auto quantity_of = [&](const std::string& name) {
+        const scene::ShaderDeclaration* shader = find(shaders, name);
+        const auto quantity = shader ? sim::find_point_quantity(shader->quantity) : std::nullopt;
+        return quantity.value_or(sim::PointQuantity::none);
+    };
+    sim::SnapshotExtras extras;
+    extras.quantity = quantity_of(look.shader);
+    if (look.split.on && quantity_of(look.split.shader) != extras.quantity)
+        extras.second_quantity = quantity_of(look.split.shader);
+    return extras;
 }
 
 render::Surface to_surface(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders,
@@ -116,6 +123,7 @@ render::Scene to_render(const scene::Scene& scene, const std::vector<scene::Shad
         result.right = to_surface(look, shaders, look.split.shader);
         result.right->sphere_lat_lines = look.split.sphere_latitude_lines;
         result.right->sphere_lon_lines = look.split.sphere_longitude_lines;
+        result.right->second_quantity = extras_of(look, shaders).second_quantity != sim::PointQuantity::none;
         result.divider = static_cast<float>(look.split.position);
     }
     o.show_springs = {look.show_structural, look.show_shearing, look.show_bending};

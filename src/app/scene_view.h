@@ -14,8 +14,9 @@ render::Surface to_surface(const scene::Look& look, const std::vector<scene::Sha
                            const std::string& shader);
 /// Samples per pixel; `automatic` is what that choice stands for.
 int samples_of(scene::Multisampling choice, int automatic);
-/// The point quantity that a look's shader colours by.
-sim::PointQuantity quantity_of(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders);
+/// What a snapshot needs for a look: the point quantity that the shader colours by, and that of the shader on the right
+/// of a split view where it is another.
+sim::SnapshotExtras extras_of(const scene::Look& look, const std::vector<scene::ShaderDeclaration>& shaders);
 /// `scene` and `snapshot` must outlive the result.
 render::Scene to_render(const scene::Scene& scene, const std::vector<scene::ShaderDeclaration>& shaders,
                         const sim::Snapshot* snapshot, double aspect);

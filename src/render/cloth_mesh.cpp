@@ -81,8 +81,15 @@ void ClothMesh::make_uv() {
 void ClothMesh::make_vertices(const sim::Snapshot& snapshot) {
     const std::span<const float> positions = snapshot.positions;
     const std::size_t points = usable_.size(), vectors = positions.size();
-    const bool with_quantity = snapshot.quantity.size() == points;
-    data_.resize(3 * vectors + (with_quantity ? points : 0));
+    data_.resize(3 * vectors);
+    quantity_at_ = {};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::vector<float>& values = i == 0 ? snapshot.quantity : snapshot.second_quantity;
+        if (values.size() != points)
+            continue;
+        quantity_at_[i] = data_.size();
+        data_.insert(data_.end(), values.begin(), values.end());
+    }
     const std::span<float> data = data_;
     std::copy(positions.begin(), positions.end(), data.begin());
     std::span<const std::uint8_t> usable; // all
@@ -94,16 +101,22 @@ void ClothMesh::make_vertices(const sim::Snapshot& snapshot) {
     }
     cloth_normals(columns_, rows_, positions, usable, data.subspan(vectors, vectors));
     cloth_tangents(columns_, rows_, positions, usable, data.subspan(2 * vectors, vectors));
-    if (with_quantity)
-        std::copy(snapshot.quantity.begin(), snapshot.quantity.end(), data.subspan(3 * vectors).begin());
 
     fill<float>(vertex_data_, data_, GL_STREAM_DRAW);
     glBindVertexArray(vertices_.id());
     attribute(ShaderLibrary::position, 3, 0);
     attribute(ShaderLibrary::normal, 3, vectors);
     attribute(ShaderLibrary::tangent, 3, 2 * vectors);
-    if (with_quantity) {
-        attribute(ShaderLibrary::quantity, 1, 3 * vectors);
+    glBindVertexArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+    use_quantity(false);
+}
+
+void ClothMesh::use_quantity(bool second) {
+    glBindVertexArray(vertices_.id());
+    glBindBuffer(GL_ARRAY_BUFFER, vertex_data_.id());
+    if (const auto at = quantity_at_[second ? 1 : 0]) {
+        attribute(ShaderLibrary::quantity, 1, *at);
     } else { // shaders then see the attribute's constant value
         glDisableVertexAttribArray(ShaderLibrary::quantity);
         glVertexAttrib1f(ShaderLibrary::quantity, 0);

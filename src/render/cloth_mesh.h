@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,9 @@ public:
     /// No cloth: nothing is drawn.
     void clear();
 
+    /// Whether the attribute `quantity` is the snapshot's first one, as after an update, or the second; 0 where it has
+    /// none.
+    void use_quantity(bool second);
     /// Makes the points' attributes those of the next draw.
     void bind() const { glBindVertexArray(vertices_.id()); }
     /// Draws with the program in use, as triangles with position, normal, uv (0 to 1 along columns and rows), tangent
@@ -54,7 +58,8 @@ private:
     std::uint64_t capture_ = 0; ///< that the mesh has; 0: one that has no number
     int columns_ = 0, rows_ = 0;
     std::size_t not_drawable_ = 0;
-    bool partial_ = false; ///< the index buffers leave points out
+    std::array<std::optional<std::size_t>, 2> quantity_at_; ///< where in the vertex data
+    bool partial_ = false;                                  ///< the index buffers leave points out
     std::vector<std::uint8_t> usable_;
     std::vector<float> data_; ///< what goes into vertex_data_
     std::vector<std::uint32_t> scratch_;

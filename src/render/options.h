@@ -54,6 +54,7 @@ struct Surface {
     std::string shader = "diffuse"; ///< one of list_surface_shaders()
     bool lines = false;             ///< the shader draws springs, not triangles
     bool translucent = false;       ///< drawn last, from the back to the front, and blended
+    bool second_quantity = false;   ///< the attribute `quantity` is the snapshot's second one
     std::vector<Uniform> uniforms;  ///< all that the shader declares
     int sphere_lat_lines = 40;      ///< 3 and up
     int sphere_lon_lines = 40;      ///< 3 and up

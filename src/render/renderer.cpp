@@ -238,6 +238,7 @@ void Renderer::Parts::draw_springs(const Options& options, const Program& progra
 void Renderer::Parts::draw_cloth(const Scene& what, const Surface& surface, DrawReport& report) {
     const Options& options = what.options;
     const Program& program = shaders.surface(surface.shader);
+    cloth.use_quantity(surface.second_quantity);
     if (!surface.lines) {
         use(program, options, surface.uniforms);
         if (surface.translucent) {

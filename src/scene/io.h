@@ -46,7 +46,6 @@ inline constexpr std::uintmax_t max_text_size = 64u << 20;
 /// The whole text of a file. Throws SceneError when it cannot be read, is a folder or is larger than allowed.
 std::string read_text_file(const std::filesystem::path& file, std::uintmax_t max_size = max_text_size);
 
-
 /// Writes a text so that a crash at any moment leaves the old or the new file whole. Throws SceneError.
 void write_text_file(const std::string& text, const std::filesystem::path& file);
 

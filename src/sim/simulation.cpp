@@ -126,6 +126,8 @@ public:
         }
         s.quantity_kind = extras.quantity;
         point_quantity(extras.quantity, model_, state_, s.positions, s.quantity);
+        s.second_quantity_kind = extras.second_quantity;
+        point_quantity(extras.second_quantity, model_, state_, s.positions, s.second_quantity);
         s.time = state_.time;
         s.steps = state_.steps;
         s.frame = frame_;

@@ -19,6 +19,7 @@ namespace clothlab::sim {
 struct SnapshotExtras {
     bool stability = false;
     PointQuantity quantity = PointQuantity::none;
+    PointQuantity second_quantity = PointQuantity::none; ///< for a picture that shows two
 };
 
 struct Snapshot {
@@ -27,7 +28,9 @@ struct Snapshot {
     std::vector<float> positions;                      ///< x, y, z per point, row-major, in m
     PointQuantity quantity_kind = PointQuantity::none; ///< what `quantity` has
     std::vector<float> quantity;                       ///< one per point; empty where none was asked for
-    double time = 0;                                   ///< s
+    PointQuantity second_quantity_kind = PointQuantity::none;
+    std::vector<float> second_quantity; ///< the same of the second
+    double time = 0;                    ///< s
     std::uint64_t steps = 0;
     std::uint64_t frame = 0;                  ///< whole frames since the start
     int substep = 0;                          ///< steps taken of the frame under way

@@ -64,11 +64,23 @@ bool modified(const Lab& lab) {
     return a != b;
 }
 
-const scene::ShaderDeclaration* shader_in_use(const Lab& lab) {
-    const auto found =
-        std::find_if(lab.shaders.begin(), lab.shaders.end(),
-                     [&](const scene::ShaderDeclaration& shader) { return shader.name == lab.scene.look.shader; });
+namespace {
+
+const scene::ShaderDeclaration* find_shader(const Lab& lab, const std::string& name) {
+    const auto found = std::find_if(lab.shaders.begin(), lab.shaders.end(),
+                                    [&](const scene::ShaderDeclaration& shader) { return shader.name == name; });
     return found == lab.shaders.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+const scene::ShaderDeclaration* shader_in_use(const Lab& lab) {
+    return find_shader(lab, lab.scene.look.shader);
+}
+
+const scene::ShaderDeclaration* shader_on_the_right(const Lab& lab) {
+    const scene::SplitView& split = lab.scene.look.split;
+    return split.on ? find_shader(lab, split.shader) : nullptr;
 }
 
 void resize_grid(scene::Scene& scene, int columns, int rows) {

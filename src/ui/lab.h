@@ -129,8 +129,9 @@ struct Lab {
     std::uint64_t viewport_texture = 0;          ///< shown by the viewport panel, bottom row first
     int viewport_width = 0, viewport_height = 0; ///< px that the viewport panel wants
     std::array<std::array<float, 3>, sim::spring_kinds> spring_colours{};
-    std::vector<std::array<float, 3>> legend_colours; ///< of the heat map in use, from low to high; sRGB
-    bool show_lamps = false;                          ///< as handles in the viewport
+    std::vector<std::array<float, 3>> legend_colours;       ///< of the heat map in use, from low to high; sRGB
+    std::vector<std::array<float, 3>> split_legend_colours; ///< the same of the right part of a split view
+    bool show_lamps = false;                                ///< as handles in the viewport
     std::optional<CameraFlight> flight;
     Output output;
 
@@ -156,6 +157,8 @@ bool modified(const Lab& lab);
 
 /// The shader that the cloth is drawn with; none when no file declares it.
 const scene::ShaderDeclaration* shader_in_use(const Lab& lab);
+/// The one on the right of a split view; none without one.
+const scene::ShaderDeclaration* shader_on_the_right(const Lab& lab);
 
 /// Whether the shader panel has texts that are not in their files.
 bool has_unsaved_shaders(const Lab& lab);

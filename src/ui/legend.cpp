@@ -27,7 +27,8 @@ void spring_kinds(const Lab& lab, ImVec2 at) {
 }
 
 /// A bar of the map's colours, the high end on top, with five numbers beside it.
-void heat_map(const Lab& lab, const scene::ShaderDeclaration& shader, ImVec2 at) {
+void heat_map(const Lab& lab, const scene::ShaderDeclaration& shader, const std::vector<std::array<float, 3>>& colours,
+              ImVec2 at) {
     const scene::ShaderLegend& legend = *shader.legend;
     const double low = number_of(lab.scene.look, shader, legend.low),
                  high = number_of(lab.scene.look, shader, legend.high);
@@ -38,10 +39,10 @@ void heat_map(const Lab& lab, const scene::ShaderDeclaration& shader, ImVec2 at)
     list->AddText(at, text, title.c_str());
     at.y += 1.5f * line;
     const float width = line, height = 8 * line;
-    const auto count = static_cast<float>(lab.legend_colours.size());
-    for (std::size_t i = 0; i < lab.legend_colours.size(); ++i) {
+    const auto count = static_cast<float>(colours.size());
+    for (std::size_t i = 0; i < colours.size(); ++i) {
         const float bottom = at.y + height * (1 - static_cast<float>(i) / count);
-        list->AddRectFilled({at.x, bottom - height / count}, {at.x + width, bottom}, packed(lab.legend_colours[i]));
+        list->AddRectFilled({at.x, bottom - height / count}, {at.x + width, bottom}, packed(colours[i]));
     }
     constexpr int steps = 4;
     for (int i = 0; i <= steps; ++i) {
@@ -58,16 +59,24 @@ void heat_map(const Lab& lab, const scene::ShaderDeclaration& shader, ImVec2 at)
 
 } // namespace
 
-void draw_legend(const Lab& lab, ImVec2 corner) {
+void draw_legend(const Lab& lab, ImVec2 corner, ImVec2 size) {
     const float line = ImGui::GetTextLineHeight();
     ImVec2 at{corner.x + line, corner.y + line};
     const scene::ShaderDeclaration* shader = shader_in_use(lab);
     if (shader && shader->legend) {
-        heat_map(lab, *shader, at);
+        heat_map(lab, *shader, lab.legend_colours, at);
         at.y += 11 * line;
     }
     if ((shader && shader->lines && !shader->legend) || lab.scene.look.springs_over_surface)
         spring_kinds(lab, at);
+    const scene::ShaderDeclaration* right = shader_on_the_right(lab);
+    const float divider = corner.x + size.x * static_cast<float>(lab.scene.look.split.position);
+    // Below the camera's bar, which is at the upper right.
+    if (right && right->legend)
+        heat_map(lab, *right, lab.split_legend_colours,
+                 {std::min(divider + line, corner.x + size.x - 9 * line), corner.y + 3 * line});
+    else if (right && right->lines && !lab.scene.look.springs_over_surface)
+        spring_kinds(lab, {std::min(divider + line, corner.x + size.x - 9 * line), corner.y + 3 * line});
 }
 
 } // namespace clothlab::ui

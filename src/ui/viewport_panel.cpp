@@ -70,7 +70,7 @@ void draw_viewport(Lab& lab) {
     ImGui::SetItemKeyOwner(ImGuiKey_MouseWheelY);
     move_camera(lab, std::min(at_least_one.x, at_least_one.y));
     draw_viewport_handles(lab, corner, at_least_one);
-    draw_legend(lab, corner);
+    draw_legend(lab, corner, size);
     const float bar = draw_camera_bar(lab, corner, size.x);
     draw_recording_badge(lab, corner.x, corner.y + size.y);
     draw_messages(lab, {corner.x, corner.y + bar}, size.x);

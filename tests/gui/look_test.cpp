@@ -1,4 +1,5 @@
-// How the scene is looked at: split view, lamps, spheres with the cloth's shader, shaders' parameters, dropped pictures.
+// How the scene is looked at: split view, lamps, spheres with the cloth's shader, shaders' parameters, dropped
+// pictures.
 #include <cmath>
 
 #include "gui/lab_driver.h"
@@ -51,6 +52,40 @@ TEST_CASE("Each part of a split view is what its shader alone draws there", "[lo
     }
     scene.right->shader = "no-such";
     CHECK_THROWS_AS(studio.draw(scene), render::ShaderError);
+}
+
+TEST_CASE("Two heat maps in a split view each show their own quantity", "[look]") {
+    Studio studio;
+    sim::Snapshot cloth = flat_cloth(8, 8);
+    cloth.quantity.assign(64, 0.05f);       // strain: 5 %
+    cloth.second_quantity.assign(64, 1.5f); // m/s
+    const auto alone = [&](const char* shader, std::vector<float> quantity) {
+        sim::Snapshot one = flat_cloth(8, 8);
+        one.quantity = std::move(quantity);
+        render::Scene scene = scene_of(one);
+        scene.options.surface = shader_of(shader);
+        return studio.draw(scene);
+    };
+    const render::Image strain = alone("strain", cloth.quantity), speed = alone("speed", cloth.second_quantity);
+    REQUIRE(differs(strain, speed, 90, 45));
+    render::Scene scene = scene_of(cloth);
+    scene.options.surface = shader_of("strain");
+    scene.right = shader_of("speed");
+    scene.right->second_quantity = true;
+    const render::Image both = studio.draw(scene);
+    CHECK_FALSE(differs(both, strain, 70, 45));
+    CHECK_FALSE(differs(both, speed, 90, 45));
+
+    scene::Look look;
+    look.shader = "strain";
+    look.split.shader = "speed";
+    const auto shaders = app::read_shader_list(shader_folder);
+    CHECK(app::extras_of(look, shaders).second_quantity == sim::PointQuantity::none); // no split view
+    look.split.on = true;
+    CHECK(app::extras_of(look, shaders).quantity == sim::PointQuantity::strain);
+    CHECK(app::extras_of(look, shaders).second_quantity == sim::PointQuantity::speed);
+    look.split.shader = "wireframe-strain";
+    CHECK(app::extras_of(look, shaders).second_quantity == sim::PointQuantity::none); // the first serves both
 }
 
 TEST_CASE("The light of two lamps is the sum of each alone", "[look]") {
@@ -146,8 +181,7 @@ TEST_CASE("A shader's parameters are sliders in the panel Look, with a reset", "
     REQUIRE(driver.act([](ImGuiTestContext* user) { user->ItemInputValue("###Look/**/p/##value", "77"); }));
     CHECK(values_of(driver, "blinn-phong").at("p") == scene::ShaderValue(77.0));
     CHECK(ui::modified(driver.lab()));
-    REQUIRE(driver.act(
-        [](ImGuiTestContext* user) { user->ItemClick("###Look/**/p/" ICON_FA_ROTATE_LEFT "##reset"); }));
+    REQUIRE(driver.act([](ImGuiTestContext* user) { user->ItemClick("###Look/**/p/" ICON_FA_ROTATE_LEFT "##reset"); }));
     CHECK_FALSE(ui::modified(driver.lab()));
 }
 

@@ -84,7 +84,7 @@ TEST_CASE("Every shader draws every shipped scene, its spheres too, at any size"
             INFO(shader.name);
             scene.look.shader = shader.name;
             sim::Snapshot snapshot;
-            simulation->capture(snapshot, {.quantity = app::quantity_of(scene.look, shaders)});
+            simulation->capture(snapshot, app::extras_of(scene.look, shaders));
             CHECK(snapshot.quantity.empty() == shader.quantity.empty());
             for (const int size : {1, 48}) {
                 studio.target.resize(size, size);

@@ -52,7 +52,7 @@ struct SimulationThread::Worker {
     double real_time_factor = 0;
     bool pause_on_diverged = true, pause_on_jitter = false;
 
-    sim::PointQuantity quantity = sim::PointQuantity::none; ///< that snapshots have
+    sim::SnapshotExtras extras; ///< that snapshots have
 
     bool margin_wanted = false;
     std::optional<sim::StabilityMargin> margin; ///< the newest, of the run as it is described now
@@ -201,7 +201,7 @@ struct SimulationThread::Worker {
         if (!simulation)
             return nullptr;
         auto s = std::make_shared<sim::Snapshot>();
-        simulation->capture(*s, {.quantity = quantity});
+        simulation->capture(*s, extras);
         if (margin_wanted) {
             renew_margin();
             s->stability = margin;
@@ -289,9 +289,10 @@ void SimulationThread::watch_stability(bool on) {
     });
 }
 
-void SimulationThread::watch_quantity(sim::PointQuantity quantity) {
-    send([quantity](Worker& w) {
-        w.quantity = quantity;
+void SimulationThread::watch_quantity(sim::PointQuantity quantity, sim::PointQuantity second) {
+    send([quantity, second](Worker& w) {
+        w.extras.quantity = quantity;
+        w.extras.second_quantity = second;
         w.dirty = true;
     });
 }

@@ -51,8 +51,9 @@ public:
     /// Whether snapshots have the stability margin (Snapshot::stability): while stepping the newest one, renewed a few
     /// times a second, when paused that of the state shown. Off at the start, for its cost.
     void watch_stability(bool on);
-    /// Which point quantity snapshots have (Snapshot::quantity), from the next one on; none at the start, for its cost.
-    void watch_quantity(sim::PointQuantity quantity);
+    /// Which point quantities snapshots have (Snapshot::quantity, second_quantity), from the next one on; none at the
+    /// start, for their cost.
+    void watch_quantity(sim::PointQuantity quantity, sim::PointQuantity second = sim::PointQuantity::none);
     /// Whether playing stops at the first trouble of a run. At the start it does for a divergence, after which there is
     /// nothing to see, and not for jitter.
     void pause_on_trouble(bool diverged, bool jitter);

@@ -197,8 +197,9 @@ private:
                 if (!step_to(item.figure->frame, *simulation, before))
                     return;
                 sim::Snapshot snapshot;
-                simulation->capture(snapshot,
-                                    {.stability = true, .quantity = app::quantity_of(item.scene.look, shaders_)});
+                sim::SnapshotExtras extras = app::extras_of(item.scene.look, shaders_);
+                extras.stability = true;
+                simulation->capture(snapshot, extras);
                 item.result.caption = caption(item.scene, shaders_, item.settings, snapshot, before);
                 ++next; // from here on the drawing fails it
                 const std::lock_guard lock(mutex_);

@@ -96,7 +96,7 @@ public:
     render::Image picture(int frame) override {
         while (simulation_->frame() < static_cast<std::uint64_t>(frame))
             simulation_->step_frame();
-        simulation_->capture(snapshot_, {.quantity = app::quantity_of(scene_.look, shaders_)});
+        simulation_->capture(snapshot_, app::extras_of(scene_.look, shaders_));
         return maker_.draw(scene_, shaders_, &snapshot_);
     }
 
