@@ -131,6 +131,7 @@ struct Lab {
     std::array<std::array<float, 3>, sim::spring_kinds> spring_colours{};
     std::vector<std::array<float, 3>> legend_colours;       ///< of the heat map in use, from low to high; sRGB
     std::vector<std::array<float, 3>> split_legend_colours; ///< the same of the right part of a split view
+    std::string shader_before = "diffuse";                  ///< what key W goes back to
     bool show_lamps = false;                                ///< as handles in the viewport
     std::optional<CameraFlight> flight;
     Output output;

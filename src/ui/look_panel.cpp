@@ -97,7 +97,7 @@ void draw_look(Lab& lab) {
     shader_list(lab, "##shader", look.shader, ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x);
     tooltip("How the cloth is drawn. Key W changes between wireframe and the last shader.");
     ImGui::SameLine();
-    if (icon_button(ICON_FA_CODE, "##edit", "Edit the shader: opens the panel Shader"))
+    if (icon_button(ICON_FA_PEN, "##edit", "Edit the shader: opens the panel Shader"))
         lab.open[static_cast<std::size_t>(PanelId::shader)] = true;
     const scene::ShaderDeclaration* shader = shader_in_use(lab);
     if (shader)

@@ -201,7 +201,9 @@ void handle_keys(Lab& lab) {
         lab.ask(Restart{});
     if (key(ImGuiKey_W)) {
         std::string& shader = lab.scene.look.shader;
-        shader = shader == "wireframe" ? "diffuse" : "wireframe";
+        if (shader != "wireframe")
+            lab.shader_before = shader;
+        shader = shader == "wireframe" ? lab.shader_before : "wireframe";
     }
     camera_keys(lab);
     if (key(ImGuiMod_Ctrl | ImGuiKey_Z, ImGuiInputFlags_Repeat))
