@@ -93,6 +93,17 @@ TEST_CASE("A picture that cannot be drawn or written is refused with a sentence"
                          MessageMatches(ContainsSubstring("no/folder/picture.png")));
 }
 
+TEST_CASE("A texture whose file is missing is named instead of drawn as something else") {
+    const TemporaryFolder folder;
+    cli::RenderArguments arguments = picture_of("two-pins", (folder / "x.png").string());
+    arguments.shader = "texture";
+    arguments.scene.settings = {"look.shaders.texture.albedo=" + (folder / "gone.png").string()};
+    REQUIRE_THROWS_MATCHES(render(arguments), std::runtime_error, MessageMatches(ContainsSubstring("gone.png")));
+    REQUIRE_FALSE(fs::exists(arguments.output));
+    arguments.scene.settings = {"look.shaders.texture.albedo=checker"};
+    REQUIRE(render(arguments) == 0);
+}
+
 TEST_CASE("A sequence has the frames asked for, each as it is drawn alone") {
     const TemporaryFolder folder;
     cli::RenderArguments arguments = picture_of("two-pins", (folder / "frame-%02d.png").string());

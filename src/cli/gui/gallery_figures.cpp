@@ -330,11 +330,10 @@ const std::vector<Section>& gallery_sections() {
               270,
               {"camera.target=0.75,1.05,0.2", "camera.distance=1.9", "camera.pitch=8"}},
              {"translucent-flag-behind",
-              "Translucent: from behind, without shadows",
+              "Translucent: the light shines through, from behind",
               "flag",
               270,
-              {"look.shadow=false", "camera.target=0.75,1.05,0.2", "camera.distance=1.9", "camera.yaw=165",
-               "camera.pitch=8"}},
+              {"camera.target=0.75,1.05,0.2", "camera.distance=1.9", "camera.yaw=165", "camera.pitch=8"}},
          }},
         {"Wind",
          "The formula of one course solution, which gusts with the time; and a flag, with drag and lift on every "

@@ -97,7 +97,11 @@ public:
         while (simulation_->frame() < static_cast<std::uint64_t>(frame))
             simulation_->step_frame();
         simulation_->capture(snapshot_, app::extras_of(scene_.look, shaders_));
-        return maker_.draw(scene_, shaders_, &snapshot_);
+        render::Image image = maker_.draw(scene_, shaders_, &snapshot_);
+        // The lab goes on with a stand-in for a picture that is missing; here nobody would notice.
+        if (const std::vector<std::string> errors = renderer_.texture_errors(); !errors.empty())
+            throw std::runtime_error(errors.front());
+        return image;
     }
 
 private:
