@@ -38,7 +38,8 @@ function(clothlab_own target)
     if(CLOTHLAB_SANITIZE)
         target_compile_options(${target} PRIVATE -fsanitize=${CLOTHLAB_SANITIZE} -fno-omit-frame-pointer)
         # GCC's flow analysis reports false positives in instrumented code.
-        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+        target_compile_options(${target} PRIVATE
+            "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-alloc-size-larger-than>")
         target_link_options(${target} PUBLIC -fsanitize=${CLOTHLAB_SANITIZE})
     endif()
 endfunction()
