@@ -62,9 +62,9 @@ set(glad ${CMAKE_BINARY_DIR}/glad)
 add_custom_command(
     OUTPUT ${glad}/src/gl.c ${glad}/include/glad/gl.h
     # reproducible: take the XML it ships with, ask no network
-    COMMAND ${GLAD_PROGRAM} --quiet --reproducible --api gl:core=4.1
+    COMMAND ${GLAD_PROGRAM} --quiet --reproducible --api gl:core=3.3
         --extensions GL_KHR_debug,GL_EXT_texture_filter_anisotropic --out-path ${glad} c
-    COMMENT "Generating the OpenGL 4.1 loader" VERBATIM)
+    COMMENT "Generating the OpenGL 3.3 loader" VERBATIM)
 add_library(glad STATIC ${glad}/src/gl.c ${glad}/include/glad/gl.h)
 target_include_directories(glad SYSTEM PUBLIC ${glad}/include)
 clothlab_foreign(glad)

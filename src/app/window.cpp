@@ -35,8 +35,8 @@ int desktop_platform() {
 void set_context_hints(bool offscreen) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, offscreen ? GLFW_EGL_CONTEXT_API : GLFW_NATIVE_CONTEXT_API);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
@@ -60,7 +60,7 @@ Window::Window(Kind kind, int width, int height, const std::string& title) : kin
     if (!handle_) {
         const std::string why = last_error();
         glfwTerminate();
-        throw std::runtime_error("no OpenGL 4.1 context: " + why +
+        throw std::runtime_error("no OpenGL 3.3 context: " + why +
                                  "; Mesa's software rasteriser (package libgl1-mesa-dri) provides one without a GPU");
     }
     glfwMakeContextCurrent(handle_);

@@ -22,7 +22,7 @@ public:
     enum class Kind { desktop, offscreen };
 
     /// Opens a window of a size in screen coordinates and makes its context current. Throws NoDisplay when a desktop
-    /// window is asked for and there is no display, std::runtime_error when there is no OpenGL 4.1.
+    /// window is asked for and there is no display, std::runtime_error when there is no OpenGL 3.3.
     Window(Kind kind, int width, int height, const std::string& title);
     ~Window();
     Window(const Window&) = delete;

@@ -20,9 +20,9 @@ void require_gl() {
     GLint major = 0, minor = 0;
     glGetIntegerv(GL_MAJOR_VERSION, &major);
     glGetIntegerv(GL_MINOR_VERSION, &minor);
-    if (major > 4 || (major == 4 && minor >= 1))
+    if (major > 3 || (major == 3 && minor >= 3))
         return;
-    throw std::runtime_error("OpenGL 4.1 is needed, but the driver (" + text(GL_RENDERER) + ") offers " +
+    throw std::runtime_error("OpenGL 3.3 is needed, but the driver (" + text(GL_RENDERER) + ") offers " +
                              text(GL_VERSION));
 }
 

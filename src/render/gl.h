@@ -8,7 +8,7 @@
 
 namespace clothlab::render {
 
-/// Throws std::runtime_error, naming the version there is, when the current context has not OpenGL 4.1 or glad was
+/// Throws std::runtime_error, naming the version there is, when the current context has not OpenGL 3.3 or glad was
 /// not loaded.
 void require_gl();
 

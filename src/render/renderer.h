@@ -51,7 +51,7 @@ struct DrawReport {
 class Renderer {
 public:
     /// Loads the shaders that every picture needs from folders like the repository's shaders/. Throws
-    /// std::runtime_error when the context is older than OpenGL 4.1, ShaderError for a shader that is missing or
+    /// std::runtime_error when the context is older than OpenGL 3.3, ShaderError for a shader that is missing or
     /// broken.
     explicit Renderer(ShaderFolders shaders);
     ~Renderer();

@@ -63,7 +63,7 @@ ImGuiLayer::ImGuiLayer(Window& window, fs::path layout, fs::path default_layout,
     else
         default_layout_wanted_ = true;
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
-    ImGui_ImplOpenGL3_Init("#version 410 core");
+    ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
 ImGuiLayer::~ImGuiLayer() {
