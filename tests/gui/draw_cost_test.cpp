@@ -48,6 +48,7 @@ TEST_CASE("Measure what a draw costs on the CPU", "[.][draw-cost]") {
         const std::vector<sim::Collider> colliders = {sim::Sphere{{0.5, 0.5, 0.5}, 0.3, 0}, sim::Plane{}};
         render::Scene scene = scene_of(snapshot);
         scene.colliders = colliders;
+        scene.options.surface = shader_of("blinn-phong");
         // Drawn into the target and resolved, as a picture of the window is.
         const Cost anew = cost_of([&] {
             snapshot.capture = 0;
