@@ -16,6 +16,15 @@ clothlab_find(Eigen3 libeigen3-dev)
 clothlab_find(hwy libhwy-dev)
 add_library(hwy INTERFACE)
 target_link_libraries(hwy INTERFACE hwy::hwy)
+find_path(LZ4_INCLUDE_DIR lz4.h)
+find_library(LZ4_LIBRARY lz4)
+mark_as_advanced(LZ4_INCLUDE_DIR LZ4_LIBRARY)
+if(NOT LZ4_INCLUDE_DIR OR NOT LZ4_LIBRARY)
+    message(FATAL_ERROR "LZ4 was not found: run cmake/setup.sh, or install liblz4-dev")
+endif()
+add_library(lz4 INTERFACE)
+target_include_directories(lz4 SYSTEM INTERFACE ${LZ4_INCLUDE_DIR})
+target_link_libraries(lz4 INTERFACE ${LZ4_LIBRARY})
 if(CLOTHLAB_TESTS)
     clothlab_find(Catch2 "catch2 3 (or configure with -DCLOTHLAB_TESTS=OFF)" 3)
     include(Catch)
@@ -152,6 +161,21 @@ add_library(imgui_color_text_edit STATIC EXCLUDE_FROM_ALL ${color_text_edit}/Tex
 target_include_directories(imgui_color_text_edit SYSTEM PUBLIC ${color_text_edit})
 target_link_libraries(imgui_color_text_edit PUBLIC imgui_headers)
 clothlab_foreign(imgui_color_text_edit)
+
+# --- ImPlot: charts ---------------------------------------------------------------------------------------------------
+
+set(implot ${external}/implot/implot)
+if(NOT EXISTS ${implot}/implot.h)
+    message(FATAL_ERROR "${CLOTHLAB_IMGUI_BUNDLE_DIR} has no ImPlot: run cmake/setup.sh gui, or point "
+        "-DCLOTHLAB_IMGUI_BUNDLE_DIR at the unpacked source release imgui-bundle")
+endif()
+add_library(implot STATIC EXCLUDE_FROM_ALL ${implot}/implot.cpp ${implot}/implot_items.cpp)
+target_include_directories(implot SYSTEM PUBLIC ${implot})
+target_link_libraries(implot PUBLIC imgui_headers)
+clothlab_foreign(implot)
+# Each kind of number makes hundreds of functions; with all of them and -O3 it compiles for two minutes.
+target_compile_definitions(implot PUBLIC "IMPLOT_CUSTOM_NUMERIC_TYPES=(float)(double)")
+target_compile_options(implot PRIVATE -O1)
 
 # --- fonts -----------------------------------------------------------------------------------------------------------
 

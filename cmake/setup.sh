@@ -8,7 +8,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-build_packages=(g++ cmake ninja-build pkgconf nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev)
+build_packages=(g++ cmake ninja-build pkgconf nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev
+    liblz4-dev)
 test_packages=(catch2)
 gui_packages=(libglm-dev libstb-dev python3-glad
     libx11-dev libxrandr-dev libxinerama-dev libxcursor-dev libxi-dev libxext-dev # GLFW on X11
@@ -24,6 +25,8 @@ bundle_parts=(
     'external/imgui/imgui/misc/cpp/*'
     'external/imgui_test_engine/imgui_test_engine/imgui_test_engine'
     external/glfw/glfw/{CMake,CMakeLists.txt,LICENSE.md,deps,include,src}
+    'external/implot/implot/LICENSE' 'external/implot/implot/*.h' 'external/implot/implot/implot.cpp'
+    external/implot/implot/implot_items.cpp
     external/portable_file_dialogs/portable_file_dialogs
     external/ImGuiColorTextEdit/ImGuiColorTextEdit/{LICENSE,TextEditor.cpp,TextEditor.h}
     external/imgui_rich_md/imgui_rich_md/assets/fonts/Roboto/Roboto-{Regular,Bold}.ttf

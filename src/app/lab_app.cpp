@@ -291,6 +291,7 @@ void LabApp::carry_out_requests() {
                     imgui_.reset_layout();
                 } else if constexpr (std::is_same_v<R, ui::ShaderRequest>) {
                     shader_desk_.carry_out(r);
+                } else if constexpr (std::is_same_v<R, ui::TimelineRequest>) {
                 } else if constexpr (std::is_same_v<R, ui::Quit>) {
                     quit_ = r.drop_unsaved || !ui::has_unsaved_shaders(lab_);
                     lab_.shader_work.asking_to_quit = !quit_;

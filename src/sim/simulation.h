@@ -15,6 +15,7 @@
 #include "sim/snapshot.h"
 #include "sim/stability.h"
 #include "sim/step.h"
+#include "sim/step_trace.h"
 
 namespace clothlab::sim {
 

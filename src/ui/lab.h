@@ -17,6 +17,7 @@
 #include "sim/snapshot.h"
 #include "ui/output.h"
 #include "ui/shader_work.h"
+#include "ui/timeline_work.h"
 
 namespace clothlab::ui {
 
@@ -74,7 +75,7 @@ struct Quit {
 };
 using Request = std::variant<OpenScene, SaveScene, BrowseForScene, BrowseForTexture, TakePicture, Record, EndRecording,
                              Play, StepFrame, StepSubstep, Restart, SetSpeed, PauseOnTrouble, Undo, Redo, ResetLayout,
-                             ShaderRequest, Quit>;
+                             ShaderRequest, TimelineRequest, Quit>;
 
 struct Message {
     bool error = false;
@@ -146,6 +147,7 @@ struct Lab {
     std::deque<Message> messages; ///< newest last; the viewport shows them until they are dismissed
     std::vector<Request> requests;
     ShaderWork shader_work;
+    TimelineWork timeline;
     std::array<bool, panel_count> open = open_at_start;
     std::array<PanelReport, panel_count> report{};
     bool status_bar_drawn = false;

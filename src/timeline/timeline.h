@@ -1,0 +1,78 @@
+// All that is known of the runs of a session: branches and bookmarks, within a budget of memory. Knows no simulation:
+// Player fills it, Reader goes to what is in it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "timeline/branch.h"
+
+namespace clothlab::timeline {
+
+struct CacheOptions {
+    std::size_t budget = std::size_t{512} << 20; ///< bytes, of all branches together
+    /// What a seek may take, in s. States are stored so close together that it suffices, as far as the frames
+    /// themselves are faster than that.
+    double seek_s = 0.010;
+    /// Simulated seconds that are worth a slower seek, of up to four times that, before their states are dropped.
+    double least_reach_s = 60;
+    bool operator==(const CacheOptions&) const = default;
+};
+
+class Timeline {
+public:
+    explicit Timeline(const CacheOptions& options = {}) : options_(options) {}
+
+    const std::vector<Branch>& branches() const { return branches_; } ///< parents before their children
+    const std::vector<Bookmark>& bookmarks() const { return bookmarks_; }
+    const Branch* find(BranchId id) const;
+    Branch* find(BranchId id);
+    /// The branch that owns a moment of a line: itself or an ancestor. Throws std::out_of_range for an unknown branch.
+    const Branch& owner(const Moment& moment) const;
+    /// The branch, its parent, ..., its root.
+    std::vector<const Branch*> line(BranchId id) const;
+
+    /// Steps, frames and time of a line.
+    FrameTime frame_time(const Moment& moment) const;
+    /// The step that completes a frame of a line, at most its last step. `frame` 0 is step 0.
+    std::uint64_t step_of_frame(BranchId id, std::uint64_t frame) const;
+    /// Whether a state can be had: it has not been dropped from the cache, and has been computed.
+    bool reachable(const Moment& moment) const;
+    /// Of a line: the reachable step nearest to one that may not be.
+    std::uint64_t nearest_reachable(const Moment& moment) const;
+
+    /// The new branch's number. A name is made up when it is empty.
+    BranchId add_root(DescriptionPtr start, const FrameClock& clock, std::string name = {});
+    BranchId add_fork(const Moment& from, DescriptionPtr start, std::string name = {});
+    /// With everything in it; its number, and its parent's, must fit. For files.
+    void add(Branch branch);
+    void rename(BranchId id, std::string name);
+    /// Removes a branch; what its children came from stays. Bookmarks of what is gone go too.
+    void remove(BranchId id);
+    void clear();
+
+    std::uint32_t add_bookmark(const Moment& moment, std::string name, std::optional<scene::Camera> camera);
+    void rename_bookmark(std::uint32_t id, std::string name);
+    void remove_bookmark(std::uint32_t id);
+    const Bookmark* find_bookmark(std::uint32_t id) const;
+
+    /// Stores a state of a branch, in place of one of the same step.
+    void store(BranchId id, Keyframe keyframe);
+    /// Thins out and drops states until the budget holds. `seconds_per_frame` is what a frame costs.
+    void fit(double seconds_per_frame, double frames_per_second);
+
+    const CacheOptions& options() const { return options_; }
+    void set_options(const CacheOptions& options) { options_ = options; }
+    /// Bytes of all that is kept.
+    std::size_t memory() const;
+
+private:
+    CacheOptions options_;
+    std::vector<Branch> branches_;
+    std::vector<Bookmark> bookmarks_;
+    BranchId next_branch_ = 1;
+    std::uint32_t next_bookmark_ = 1;
+};
+
+} // namespace clothlab::timeline
