@@ -1,6 +1,5 @@
 #include "sim/simulation.h"
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstring>
@@ -8,35 +7,10 @@
 #include <string>
 
 #include "sim/integrators/integrator.h"
-#include "sim/random.h"
+#include "sim/saved_state.h"
 
 namespace clothlab::sim {
 namespace {
-
-constexpr std::uint32_t state_magic = 0x534c4343; // "CCLS"
-constexpr std::uint32_t state_version = 2;
-
-struct StateHeader {
-    std::uint32_t magic = state_magic, version = state_version;
-    std::uint32_t real_size = 0;
-    std::int32_t columns = 0, rows = 0, substep = 0;
-    std::uint64_t frame = 0, steps = 0;
-    double time = 0;
-    double dt = 0; ///< s; of the step that it comes from
-    double solver_step = 0;
-    std::uint32_t history = 0;
-    std::uint32_t velocities = 0; ///< arrays of velocities: 0 to 2
-};
-
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-    std::uint64_t h = bytes.size();
-    for (std::size_t i = 0; i < bytes.size(); i += 8) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(8, bytes.size() - i));
-        h = SplitMix64::mix(h ^ word);
-    }
-    return h;
-}
 
 template <class T>
 void append(std::vector<std::byte>& bytes, const T* values, std::size_t count) {
@@ -186,15 +160,7 @@ public:
     }
 
     void load_state(std::span<const std::byte> bytes) override {
-        StateHeader header;
-        if (bytes.size() < sizeof header + sizeof(std::uint64_t))
-            throw std::invalid_argument("too short to be a state");
-        std::memcpy(&header, bytes.data(), sizeof header);
-        if (header.magic != state_magic)
-            throw std::invalid_argument("not a clothlab state");
-        if (header.version != state_version)
-            throw std::invalid_argument("a state of version " + std::to_string(header.version) +
-                                        "; this program reads " + std::to_string(state_version));
+        const StateHeader header = read_state_header(bytes);
         if (header.real_size != sizeof(Real))
             throw std::invalid_argument(std::string("a state in ") + (header.real_size == 8 ? "double" : "single") +
                                         " precision; the scene asks for " + (sizeof(Real) == 8 ? "double" : "single"));
@@ -203,14 +169,7 @@ public:
                                         std::to_string(header.rows) + " points; the scene has " +
                                         std::to_string(model_.grid->columns) + " x " +
                                         std::to_string(model_.grid->rows));
-        const std::size_t arrays = 2 + std::size_t{header.velocities};
-        const std::size_t size = sizeof header + 3 * arrays * points() * sizeof(Real) + sizeof(std::uint64_t);
-        if (arrays > 4 || bytes.size() != size)
-            throw std::invalid_argument("a truncated or overlong state");
-        std::uint64_t sum = 0;
-        std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
-        if (sum != checksum(bytes.first(bytes.size() - sizeof sum)))
-            throw std::invalid_argument("a damaged state: its checksum does not match");
+        check_state(header, bytes);
 
         state_.velocity.resize(header.velocities > 0 ? points() : 0);
         state_.previous_velocity.resize(header.velocities > 1 ? points() : 0);
