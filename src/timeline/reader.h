@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/simulation.h"
@@ -26,28 +27,37 @@ public:
     bool has_simulation() const { return simulation_ != nullptr; }
     sim::Simulation& simulation() { return *simulation_; }
     const sim::Simulation& simulation() const { return *simulation_; }
+    /// In force.
+    const DescriptionPtr& description() const { return description_; }
 
     /// Bytes of states that are kept because the next step back will want them.
-    std::size_t memory() const;
-    void set_memory(std::size_t most) { most_ = most; }
+    std::size_t memory() const { return passed_bytes_; }
 
 protected:
-    friend class Player;
-    // A state of the last replay, so that going back through it does not replay it for each step.
+    /// The simulation at a state of a description; null: at its start.
+    void take(const DescriptionPtr& description, const std::vector<std::byte>* state);
+    void change(const DescriptionPtr& description);
+    /// What is known of the past may no longer be true.
+    void forget();
+
+    sim::Execution execution_;
+    bool observed_ = false; ///< simulations are timed and watched for trouble
+    std::unique_ptr<sim::Simulation> simulation_;
+    DescriptionPtr description_;
+    Moment at_; ///< by the branch that owns it; branch 0: unknown
+
+private:
+    // A state on the way of a seek, so that going back from there step by step does not replay the way each time.
     struct Passed {
-        BranchId owner;
-        std::uint64_t step;
+        Moment moment; ///< by the branch that owns it
         DescriptionPtr description;
         std::vector<std::byte> state;
     };
-    void take(const DescriptionPtr& description, std::span<const std::byte> state);
-    void make_changes(const Branch& owner);
-    void pass(const Branch& owner, std::uint64_t target, std::uint64_t from);
+    const Passed* passed_before(const Moment& moment, std::uint64_t from) const;
+    void pass();
 
-    sim::Execution execution_;
-    std::unique_ptr<sim::Simulation> simulation_;
     std::deque<Passed> passed_;
-    std::size_t most_ = std::size_t{16} << 20;
+    std::size_t passed_bytes_ = 0;
 };
 
 } // namespace clothlab::timeline

@@ -20,6 +20,9 @@ struct CacheOptions {
     bool operator==(const CacheOptions&) const = default;
 };
 
+/// The stored state from which a step of a branch's own part is reached; null when it cannot be.
+const Keyframe* keyframe_before(const Branch& branch, std::uint64_t step);
+
 class Timeline {
 public:
     explicit Timeline(const CacheOptions& options = {}) : options_(options) {}
@@ -59,16 +62,27 @@ public:
 
     /// Stores a state of a branch, in place of one of the same step.
     void store(BranchId id, Keyframe keyframe);
-    /// Thins out and drops states until the budget holds. `seconds_per_frame` is what a frame costs.
-    void fit(double seconds_per_frame, double frames_per_second);
+    /// The states that a branch's marks and bookmarks need are kept: they go last.
+    void refresh_kept(BranchId id);
+    /// Thins out and drops states until the budget holds; `seconds_per_frame` is what a frame costs. First every other
+    /// state goes, the oldest first, as long as a seek between those left takes no longer than it may; then the oldest
+    /// go, each branch's last one excepted, and kept ones only when no others are left.
+    void fit(double seconds_per_frame);
 
     const CacheOptions& options() const { return options_; }
     void set_options(const CacheOptions& options) { options_ = options; }
     /// Bytes of all that is kept.
     std::size_t memory() const;
+    /// Simulated seconds that are reachable, of all branches together.
+    double reach_s() const;
 
 private:
+    void thin(std::size_t most, std::uint64_t gap);
+    void drop(std::size_t most, bool kept_too);
+    static void forget_unreachable(Branch& branch);
+
     CacheOptions options_;
+    std::size_t stored_ = 0; ///< bytes of all keyframes
     std::vector<Branch> branches_;
     std::vector<Bookmark> bookmarks_;
     BranchId next_branch_ = 1;

@@ -1,0 +1,387 @@
+#include "timeline/timeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace clothlab::timeline {
+namespace {
+
+/// Freed beyond what is needed, as a share of the budget, so that fitting is done now and then, not for every state.
+constexpr double slack = 0.03;
+/// How much slower than wanted a seek may become before states within the least reach are dropped.
+constexpr double slowest = 4;
+
+std::size_t bytes(const Keyframe& keyframe) {
+    return sizeof keyframe + (keyframe.state ? keyframe.state->memory() : 0);
+}
+
+std::size_t bytes(const sim::Description& description) {
+    return sizeof description + description.cloth.pinned.capacity() * sizeof(sim::GridPoint) +
+           description.colliders.capacity() * sizeof(sim::Collider);
+}
+
+std::size_t bytes_without_keyframes(const Branch& branch) {
+    std::size_t sum = sizeof branch + branch.samples.size() * sizeof(Sample) + branch.marks.size() * sizeof(Mark) +
+                      branch.clocks.size() * sizeof(FrameClock);
+    for (const Change& change : branch.changes)
+        sum += sizeof change + bytes(*change.description);
+    return sum;
+}
+
+auto first_after(std::vector<Keyframe>& keyframes, std::uint64_t step) {
+    return std::upper_bound(keyframes.begin(), keyframes.end(), step,
+                            [](std::uint64_t s, const Keyframe& k) { return s < k.step; });
+}
+
+} // namespace
+
+const Keyframe* keyframe_before(const Branch& branch, std::uint64_t step) {
+    auto after = std::upper_bound(branch.keyframes.begin(), branch.keyframes.end(), step,
+                                  [](std::uint64_t s, const Keyframe& k) { return s < k.step; });
+    if (after == branch.keyframes.begin() || step > branch.end)
+        return nullptr;
+    const Keyframe& keyframe = *std::prev(after);
+    return step <= keyframe.until ? &keyframe : nullptr;
+}
+
+const Branch* Timeline::find(BranchId id) const {
+    const auto found = std::find_if(branches_.begin(), branches_.end(), [id](const Branch& b) { return b.id == id; });
+    return found == branches_.end() ? nullptr : &*found;
+}
+
+Branch* Timeline::find(BranchId id) {
+    return const_cast<Branch*>(std::as_const(*this).find(id));
+}
+
+const Branch& Timeline::owner(const Moment& moment) const {
+    const Branch* branch = find(moment.branch);
+    while (branch && branch->parent != 0 && moment.step < branch->fork_step)
+        branch = find(branch->parent);
+    if (!branch)
+        throw std::out_of_range("there is no branch " + std::to_string(moment.branch));
+    return *branch;
+}
+
+std::vector<const Branch*> Timeline::line(BranchId id) const {
+    std::vector<const Branch*> line;
+    for (const Branch* branch = find(id); branch; branch = find(branch->parent))
+        line.push_back(branch);
+    if (line.empty())
+        throw std::out_of_range("there is no branch " + std::to_string(id));
+    return line;
+}
+
+FrameTime Timeline::frame_time(const Moment& moment) const {
+    return timeline::frame_time(owner(moment), moment.step);
+}
+
+std::uint64_t Timeline::step_of_frame(BranchId id, std::uint64_t frame) const {
+    const std::vector<const Branch*> branches = line(id);
+    for (const Branch* branch : branches) {
+        const FrameClock& begin = branch->clocks.front();
+        if (branch->parent != 0 && (frame < begin.frame || (frame == begin.frame && begin.substep > 0)))
+            continue;
+        return std::min(timeline::step_of_frame(*branch, frame), branches.front()->end);
+    }
+    return branches.back()->fork_step;
+}
+
+bool Timeline::reachable(const Moment& moment) const {
+    return find(moment.branch) && keyframe_before(owner(moment), moment.step);
+}
+
+std::uint64_t Timeline::nearest_reachable(const Moment& moment) const {
+    const std::vector<const Branch*> branches = line(moment.branch);
+    std::optional<std::uint64_t> best;
+    const auto offer = [&](std::uint64_t step) {
+        const auto away = [&](std::uint64_t s) { return s > moment.step ? s - moment.step : moment.step - s; };
+        if (!best || away(step) < away(*best))
+            best = step;
+    };
+    std::uint64_t last = branches.front()->end;
+    for (const Branch* branch : branches) {
+        for (const Keyframe& keyframe : branch->keyframes)
+            if (keyframe.step <= last)
+                offer(std::clamp(moment.step, keyframe.step, std::min(keyframe.until, last)));
+        if (branch->fork_step == 0)
+            break;
+        last = branch->fork_step - 1;
+    }
+    return best.value_or(branches.front()->end);
+}
+
+BranchId Timeline::add_root(DescriptionPtr start, const FrameClock& clock, std::string name) {
+    Branch branch;
+    branch.id = next_branch_++;
+    branch.name = name.empty() ? "Run " + std::to_string(branch.id) : std::move(name);
+    branch.fork_step = branch.end = clock.step;
+    branch.start = std::move(start);
+    branch.clocks.push_back(clock);
+    branches_.push_back(std::move(branch));
+    return branches_.back().id;
+}
+
+BranchId Timeline::add_fork(const Moment& from, DescriptionPtr start, std::string name) {
+    const Branch& parent = owner(from);
+    Branch branch;
+    branch.id = next_branch_++;
+    branch.name = name.empty() ? "Branch " + std::to_string(branch.id) : std::move(name);
+    branch.parent = parent.id;
+    branch.fork_step = branch.end = from.step;
+    branch.start = std::move(start);
+    FrameClock clock = clock_at(parent, from.step);
+    const FrameTime time = timeline::frame_time(parent, from.step);
+    clock.step = from.step;
+    clock.frame = time.frame;
+    clock.substep = time.substep;
+    clock.time = time.time;
+    branch.clocks.push_back(clock);
+    branches_.push_back(std::move(branch));
+    return branches_.back().id;
+}
+
+void Timeline::add(Branch branch) {
+    if (branch.id == 0 || find(branch.id) || (branch.parent != 0 && !find(branch.parent)) || branch.clocks.empty() ||
+        !branch.start)
+        throw std::invalid_argument("a branch that does not fit");
+    next_branch_ = std::max(next_branch_, branch.id + 1);
+    for (const Keyframe& keyframe : branch.keyframes)
+        stored_ += bytes(keyframe);
+    branches_.push_back(std::move(branch));
+}
+
+void Timeline::rename(BranchId id, std::string name) {
+    if (Branch* branch = find(id); branch && !name.empty())
+        branch->name = std::move(name);
+}
+
+void Timeline::remove(BranchId id) {
+    Branch* branch = find(id);
+    if (!branch)
+        return;
+    std::optional<std::uint64_t> shared; // the last step that a child comes from
+    for (const Branch& child : branches_)
+        if (child.parent == id)
+            shared = std::max(shared.value_or(0), child.fork_step);
+    const auto gone = [&](const Bookmark& b) { return b.moment.branch == id && (!shared || b.moment.step > *shared); };
+    bookmarks_.erase(std::remove_if(bookmarks_.begin(), bookmarks_.end(), gone), bookmarks_.end());
+    if (!shared) {
+        const BranchId parent = branch->parent;
+        for (const Keyframe& keyframe : branch->keyframes)
+            stored_ -= bytes(keyframe);
+        branches_.erase(branches_.begin() + (branch - branches_.data()));
+        const Branch* above = find(parent);
+        if (above && above->stem)
+            remove(parent);
+        return;
+    }
+    branch->stem = true;
+    const std::uint64_t last_frame = timeline::frame_time(*branch, *shared).frame;
+    branch->end = std::min(branch->end, *shared);
+    for (auto k = first_after(branch->keyframes, branch->end); k != branch->keyframes.end(); ++k)
+        stored_ -= bytes(*k);
+    branch->keyframes.erase(first_after(branch->keyframes, branch->end), branch->keyframes.end());
+    if (!branch->keyframes.empty())
+        branch->keyframes.back().until = std::min(branch->keyframes.back().until, branch->end);
+    const auto later = [&](const auto& x) { return x.step > branch->end; };
+    std::erase_if(branch->changes, later);
+    std::erase_if(branch->clocks, later);
+    std::erase_if(branch->marks, later);
+    std::erase_if(branch->samples, [&](const Sample& s) { return s.frame > last_frame; });
+    if (branch->trouble && branch->trouble_step > branch->end)
+        branch->trouble.reset();
+}
+
+void Timeline::clear() {
+    branches_.clear();
+    bookmarks_.clear();
+    stored_ = 0;
+}
+
+std::uint32_t Timeline::add_bookmark(const Moment& moment, std::string name, std::optional<scene::Camera> camera) {
+    const Branch& branch = owner(moment);
+    const FrameTime time = timeline::frame_time(branch, moment.step);
+    Bookmark bookmark{next_bookmark_++, {branch.id, moment.step}, time.frame, time.substep, std::move(name), camera};
+    if (bookmark.name.empty())
+        bookmark.name = "Bookmark " + std::to_string(bookmark.id);
+    bookmarks_.push_back(std::move(bookmark));
+    return bookmarks_.back().id;
+}
+
+void Timeline::rename_bookmark(std::uint32_t id, std::string name) {
+    for (Bookmark& bookmark : bookmarks_)
+        if (bookmark.id == id && !name.empty())
+            bookmark.name = std::move(name);
+}
+
+void Timeline::remove_bookmark(std::uint32_t id) {
+    std::erase_if(bookmarks_, [id](const Bookmark& b) { return b.id == id; });
+}
+
+const Bookmark* Timeline::find_bookmark(std::uint32_t id) const {
+    const auto found =
+        std::find_if(bookmarks_.begin(), bookmarks_.end(), [id](const Bookmark& b) { return b.id == id; });
+    return found == bookmarks_.end() ? nullptr : &*found;
+}
+
+void Timeline::store(BranchId id, Keyframe keyframe) {
+    Branch* branch = find(id);
+    if (!branch)
+        throw std::out_of_range("there is no branch " + std::to_string(id));
+    stored_ += bytes(keyframe);
+    auto after = first_after(branch->keyframes, keyframe.step);
+    if (after != branch->keyframes.begin()) {
+        Keyframe& before = *std::prev(after);
+        if (before.step == keyframe.step) {
+            stored_ -= bytes(before);
+            keyframe.until = std::max(keyframe.until, before.until);
+            keyframe.kept |= before.kept;
+            before = std::move(keyframe);
+            return;
+        }
+        if (before.until >= keyframe.step) {
+            keyframe.until = std::max(keyframe.until, before.until);
+            before.until = keyframe.step;
+        }
+    }
+    branch->keyframes.insert(after, std::move(keyframe));
+}
+
+void Timeline::refresh_kept(BranchId id) {
+    Branch* branch = find(id);
+    if (!branch)
+        return;
+    for (Keyframe& keyframe : branch->keyframes)
+        keyframe.kept = false;
+    const auto keep = [&](std::uint64_t step) {
+        if (const Keyframe* keyframe = keyframe_before(*branch, step))
+            branch->keyframes[static_cast<std::size_t>(keyframe - branch->keyframes.data())].kept = true;
+    };
+    for (const Mark& mark : branch->marks)
+        keep(mark.step);
+    for (const Bookmark& bookmark : bookmarks_)
+        if (bookmark.moment.branch == id)
+            keep(bookmark.moment.step);
+}
+
+std::size_t Timeline::memory() const {
+    std::size_t sum = stored_ + bookmarks_.size() * sizeof(Bookmark);
+    for (const Branch& branch : branches_)
+        sum += bytes_without_keyframes(branch);
+    return sum;
+}
+
+void Timeline::thin(std::size_t most, std::uint64_t gap) {
+    std::size_t now = memory();
+    for (Branch& branch : branches_) {
+        std::vector<Keyframe>& list = branch.keyframes;
+        std::size_t kept = std::min<std::size_t>(list.size(), 1); // that many have been looked at and stay
+        for (std::size_t i = 1; i < list.size(); ++i) {
+            bool goes = false;
+            if (now > most && i + 1 < list.size() && !list[i].kept && list[i].state) {
+                Keyframe& before = list[kept - 1];
+                const std::uint64_t from = timeline::frame_time(branch, before.step).frame;
+                const std::uint64_t to = timeline::frame_time(branch, list[i].until).frame;
+                goes = before.until == list[i].step && to - from <= gap;
+                if (goes)
+                    before.until = list[i].until;
+            }
+            if (goes)
+                now -= bytes(list[i]), stored_ -= bytes(list[i]);
+            else if (kept++ != i)
+                list[kept - 1] = std::move(list[i]);
+        }
+        list.resize(kept);
+    }
+}
+
+void Timeline::drop(std::size_t most, bool kept_too) {
+    std::size_t now = memory();
+    for (Branch& branch : branches_) {
+        if (now <= most)
+            return;
+        std::vector<Keyframe>& list = branch.keyframes;
+        const std::size_t before = list.size();
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            // What is at a branch's end is where it goes on.
+            const bool goes = now > most && i + 1 < before && list[i].state && (kept_too || !list[i].kept);
+            if (goes)
+                now -= bytes(list[i]), stored_ -= bytes(list[i]);
+            else if (left++ != i)
+                list[left - 1] = std::move(list[i]);
+        }
+        list.resize(left);
+        if (left == before)
+            continue;
+        now -= bytes_without_keyframes(branch);
+        forget_unreachable(branch);
+        now += bytes_without_keyframes(branch);
+    }
+}
+
+void Timeline::forget_unreachable(Branch& branch) {
+    const auto lies_in = [](const Keyframe& k, std::uint64_t step) { return k.step <= step && step <= k.until; };
+    // Keyframes, changes, clocks and samples all ascend: one walk over each.
+    const auto forget = [&](auto& list, auto step_of, auto needed) {
+        std::size_t k = 0;
+        std::erase_if(list, [&](const auto& entry) {
+            const std::uint64_t step = step_of(entry);
+            while (k + 1 < branch.keyframes.size() && branch.keyframes[k + 1].step <= step)
+                ++k;
+            return !needed(step, k);
+        });
+    };
+    const auto reached = [&](std::uint64_t step, std::size_t k) {
+        return !branch.keyframes.empty() && lies_in(branch.keyframes[k], step);
+    };
+    forget(
+        branch.samples, [&](const Sample& s) { return timeline::step_of_frame(branch, s.frame); }, reached);
+    forget(
+        branch.changes, [](const Change& c) { return c.step; }, reached);
+    // A clock counts until the next one.
+    std::vector<FrameClock> clocks;
+    for (std::size_t i = 0; i < branch.clocks.size(); ++i) {
+        const std::uint64_t from = branch.clocks[i].step;
+        const bool last = i + 1 == branch.clocks.size();
+        const bool needed =
+            i == 0 || last || std::any_of(branch.keyframes.begin(), branch.keyframes.end(), [&](const Keyframe& k) {
+                return k.until >= from && k.step < branch.clocks[i + 1].step;
+            });
+        if (needed)
+            clocks.push_back(branch.clocks[i]);
+    }
+    branch.clocks = std::move(clocks);
+}
+
+double Timeline::reach_s() const {
+    double sum = 0;
+    for (const Branch& branch : branches_)
+        for (const Keyframe& keyframe : branch.keyframes)
+            sum += timeline::frame_time(branch, keyframe.until).time - timeline::frame_time(branch, keyframe.step).time;
+    return sum;
+}
+
+void Timeline::fit(double seconds_per_frame) {
+    if (memory() <= options_.budget)
+        return;
+    const auto most = static_cast<std::size_t>(static_cast<double>(options_.budget) * (1 - slack));
+    const auto frames = [&](double seconds) {
+        const double gap = seconds_per_frame > 0 ? seconds / seconds_per_frame : 1;
+        return static_cast<std::uint64_t>(std::clamp(std::floor(gap), 1.0, 1e6));
+    };
+    const auto thin_to = [&](std::uint64_t widest) {
+        for (std::uint64_t gap = 2; memory() > most && gap < 2 * widest; gap *= 2)
+            thin(most, std::min(gap, widest));
+    };
+    thin_to(frames(options_.seek_s));
+    if (memory() > most && reach_s() < options_.least_reach_s)
+        thin_to(frames(slowest * options_.seek_s));
+    for (const bool kept_too : {false, true})
+        if (memory() > most)
+            drop(most, kept_too);
+}
+
+} // namespace clothlab::timeline
