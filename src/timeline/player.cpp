@@ -166,6 +166,11 @@ sim::StepCounts Player::step() {
     if (at_end())
         return record();
     frame_ = {};
+    const std::uint64_t next = simulation_->steps() + 1;
+    if (!timeline_.reachable({line_, next})) {
+        seek(timeline_.next_reachable({line_, next}));
+        return {};
+    }
     return Reader::step(timeline_, line_);
 }
 

@@ -27,7 +27,7 @@ public:
     /// live is a run of its own (start). Throws std::invalid_argument, and changes nothing, for no meaning.
     void change(const sim::Description& description);
 
-    /// One step forward.
+    /// One step forward; over what has been dropped from the cache, to the next state there is.
     sim::StepCounts step();
     bool at_end() const;
     /// To a step of the present line, or the nearest one that can be reached; false when that is another.

@@ -92,24 +92,38 @@ bool Timeline::reachable(const Moment& moment) const {
     return find(moment.branch) && keyframe_before(owner(moment), moment.step);
 }
 
-std::uint64_t Timeline::nearest_reachable(const Moment& moment) const {
-    const std::vector<const Branch*> branches = line(moment.branch);
-    std::optional<std::uint64_t> best;
-    const auto offer = [&](std::uint64_t step) {
-        const auto away = [&](std::uint64_t s) { return s > moment.step ? s - moment.step : moment.step - s; };
-        if (!best || away(step) < away(*best))
-            best = step;
-    };
+template <class Take>
+void Timeline::for_reachable(BranchId id, Take take) const {
+    const std::vector<const Branch*> branches = line(id);
     std::uint64_t last = branches.front()->end;
     for (const Branch* branch : branches) {
-        for (const Keyframe& keyframe : branch->keyframes)
-            if (keyframe.step <= last)
-                offer(std::clamp(moment.step, keyframe.step, std::min(keyframe.until, last)));
+        for (auto keyframe = branch->keyframes.rbegin(); keyframe != branch->keyframes.rend(); ++keyframe)
+            if (keyframe->step <= last)
+                take(keyframe->step, std::min(keyframe->until, last));
         if (branch->fork_step == 0)
-            break;
+            return;
         last = branch->fork_step - 1;
     }
-    return best.value_or(branches.front()->end);
+}
+
+std::uint64_t Timeline::nearest_reachable(const Moment& moment) const {
+    std::optional<std::uint64_t> best;
+    for_reachable(moment.branch, [&](std::uint64_t first, std::uint64_t last) {
+        const auto away = [&](std::uint64_t s) { return s > moment.step ? s - moment.step : moment.step - s; };
+        const std::uint64_t step = std::clamp(moment.step, first, last);
+        if (!best || away(step) < away(*best))
+            best = step;
+    });
+    return best.value_or(find(moment.branch)->end);
+}
+
+std::uint64_t Timeline::next_reachable(const Moment& moment) const {
+    std::uint64_t next = find(moment.branch)->end;
+    for_reachable(moment.branch, [&](std::uint64_t first, std::uint64_t last) {
+        if (last >= moment.step)
+            next = std::min(next, std::max(first, moment.step));
+    });
+    return next;
 }
 
 BranchId Timeline::add_root(DescriptionPtr start, const FrameClock& clock, std::string name) {

@@ -42,8 +42,9 @@ public:
     std::uint64_t step_of_frame(BranchId id, std::uint64_t frame) const;
     /// Whether a state can be had: it has not been dropped from the cache, and has been computed.
     bool reachable(const Moment& moment) const;
-    /// Of a line: the reachable step nearest to one that may not be.
+    /// Of a line: the reachable step nearest to one that may not be, and the first that is not before it.
     std::uint64_t nearest_reachable(const Moment& moment) const;
+    std::uint64_t next_reachable(const Moment& moment) const;
 
     /// The new branch's number. A name is made up when it is empty.
     BranchId add_root(DescriptionPtr start, const FrameClock& clock, std::string name = {});
@@ -80,6 +81,9 @@ private:
     void thin(std::size_t most, std::uint64_t gap);
     void drop(std::size_t most, bool kept_too);
     static void forget_unreachable(Branch& branch);
+    /// Calls take(first, last) for ranges of reachable steps of a line, the last ones first.
+    template <class Take>
+    void for_reachable(BranchId id, Take take) const;
 
     CacheOptions options_;
     std::size_t stored_ = 0; ///< bytes of all keyframes
