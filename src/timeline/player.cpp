@@ -52,13 +52,12 @@ void Player::start(const sim::Description& description) {
     clock.dt = 1 / (stepping.frames_per_second * stepping.substeps);
     line_ = timeline_.add_root(begin, clock);
     timeline_.store(line_, {0, 0, begin, nullptr, false});
-    at_ = {line_, 0};
+    at_ = {};
     begin_branch();
 }
 
 void Player::clear() {
     timeline_.clear();
-    forget();
     simulation_.reset();
     description_.reset();
     line_ = 0;
@@ -118,7 +117,6 @@ void Player::change(const sim::Description& description) {
             Branch& branch = *timeline_.find(line_);
             if (before_change_->line != line_) {
                 timeline_.remove(std::exchange(line_, before_change_->line));
-                forget();
                 begin_branch();
                 return;
             }
@@ -149,8 +147,7 @@ void Player::finish_change(Branch& branch) {
     const Keyframe* there = keyframe_before(branch, step);
     if (step == branch.fork_step || (there && there->step == step))
         store_state(branch, false);
-    forget();
-    at_ = {branch.id, step};
+    timeline_.revise();
     frame_ = {};
     ++version_;
     timeline_.fit(seconds_per_frame_);
@@ -359,7 +356,6 @@ void Player::remove_branch(BranchId id) {
         switch_to(other);
     }
     timeline_.remove(id);
-    forget();
     if (!timeline_.find(line_)) // it was a stem, for this branch alone
         line_ = timeline_.branches().front().id;
     begin_branch();
@@ -370,13 +366,11 @@ void Player::adopt(Timeline timeline, const Moment& at) {
     const BranchId before_line = std::exchange(line_, at.branch);
     std::swap(timeline_, timeline);
     const Moment before{before_line, simulation_ ? simulation_->steps() : 0};
-    forget();
     try {
         seek(at.step);
     } catch (...) {
         std::swap(timeline_, timeline);
         line_ = before_line;
-        forget();
         if (line_ != 0)
             Reader::seek(timeline_, before);
         throw;

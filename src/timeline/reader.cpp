@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace clothlab::timeline {
 namespace {
@@ -30,7 +31,9 @@ void Reader::change(const DescriptionPtr& description) {
     description_ = description;
 }
 
-void Reader::forget() {
+void Reader::check_revision(const Timeline& timeline) {
+    if (std::exchange(revision_, timeline.revision()) == timeline.revision())
+        return;
     at_ = {};
     passed_.clear();
     passed_bytes_ = 0;
@@ -58,6 +61,7 @@ void Reader::pass() {
 }
 
 void Reader::seek(const Timeline& timeline, const Moment& moment) {
+    check_revision(timeline);
     if (!timeline.find(moment.branch))
         throw std::out_of_range("there is no branch " + std::to_string(moment.branch));
     const Branch& owner = timeline.owner(moment);
@@ -118,6 +122,7 @@ sim::StepCounts Reader::step(const Timeline& timeline, BranchId line) {
         for (auto made = begin; made != branch.changes.end() && made->step == step; ++made)
             change(made->description);
     }
+    check_revision(timeline);
     at_ = {timeline.owner({line, step}).id, step};
     return counts;
 }

@@ -37,9 +37,6 @@ protected:
     /// The simulation at a state of a description; null: at its start.
     void take(const DescriptionPtr& description, const std::vector<std::byte>* state);
     void change(const DescriptionPtr& description);
-    /// What is known of the past may no longer be true.
-    void forget();
-
     sim::Execution execution_;
     bool observed_ = false; ///< simulations are timed and watched for trouble
     std::unique_ptr<sim::Simulation> simulation_;
@@ -55,7 +52,10 @@ private:
     };
     const Passed* passed_before(const Moment& moment, std::uint64_t from) const;
     void pass();
+    /// Should the timeline not be the one it was, what is known of it may no longer be true.
+    void check_revision(const Timeline& timeline);
 
+    std::uint64_t revision_ = 0; ///< of the timeline that what is known is of
     std::deque<Passed> passed_;
     std::size_t passed_bytes_ = 0;
 };

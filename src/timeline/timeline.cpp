@@ -1,6 +1,7 @@
 #include "timeline/timeline.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -44,6 +45,13 @@ const Keyframe* keyframe_before(const Branch& branch, std::uint64_t step) {
         return nullptr;
     const Keyframe& keyframe = *std::prev(after);
     return step <= keyframe.until ? &keyframe : nullptr;
+}
+
+std::size_t memory(const Branch& branch) {
+    std::size_t sum = bytes_without_keyframes(branch);
+    for (const Keyframe& keyframe : branch.keyframes)
+        sum += bytes(keyframe);
+    return sum;
 }
 
 const Branch* Timeline::find(BranchId id) const {
@@ -92,20 +100,6 @@ bool Timeline::reachable(const Moment& moment) const {
     return find(moment.branch) && keyframe_before(owner(moment), moment.step);
 }
 
-template <class Take>
-void Timeline::for_reachable(BranchId id, Take take) const {
-    const std::vector<const Branch*> branches = line(id);
-    std::uint64_t last = branches.front()->end;
-    for (const Branch* branch : branches) {
-        for (auto keyframe = branch->keyframes.rbegin(); keyframe != branch->keyframes.rend(); ++keyframe)
-            if (keyframe->step <= last)
-                take(keyframe->step, std::min(keyframe->until, last));
-        if (branch->fork_step == 0)
-            return;
-        last = branch->fork_step - 1;
-    }
-}
-
 std::uint64_t Timeline::nearest_reachable(const Moment& moment) const {
     std::optional<std::uint64_t> best;
     for_reachable(moment.branch, [&](std::uint64_t first, std::uint64_t last) {
@@ -124,6 +118,20 @@ std::uint64_t Timeline::next_reachable(const Moment& moment) const {
             next = std::min(next, std::max(first, moment.step));
     });
     return next;
+}
+
+std::optional<std::uint64_t> Timeline::previous_reachable(const Moment& moment) const {
+    std::optional<std::uint64_t> previous;
+    for_reachable(moment.branch, [&](std::uint64_t first, std::uint64_t last) {
+        if (first <= moment.step)
+            previous = std::max(previous.value_or(0), std::min(last, moment.step));
+    });
+    return previous;
+}
+
+void Timeline::revise() {
+    static std::atomic<std::uint64_t> revisions = 0; // of all timelines, so that two of them never have the same
+    revision_ = ++revisions;
 }
 
 BranchId Timeline::add_root(DescriptionPtr start, const FrameClock& clock, std::string name) {
@@ -175,6 +183,7 @@ void Timeline::remove(BranchId id) {
     Branch* branch = find(id);
     if (!branch)
         return;
+    revise();
     std::optional<std::uint64_t> shared; // the last step that a child comes from
     for (const Branch& child : branches_)
         if (child.parent == id)
@@ -212,6 +221,7 @@ void Timeline::clear() {
     branches_.clear();
     bookmarks_.clear();
     stored_ = 0;
+    revise();
 }
 
 std::uint32_t Timeline::add_bookmark(const Moment& moment, std::string name, std::optional<scene::Camera> camera) {

@@ -2,8 +2,11 @@
 // Player fills it, Reader goes to what is in it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "timeline/branch.h"
@@ -23,9 +26,12 @@ struct CacheOptions {
 /// The stored state from which a step of a branch's own part is reached; null when it cannot be.
 const Keyframe* keyframe_before(const Branch& branch, std::uint64_t step);
 
+/// Bytes of all that a branch keeps.
+std::size_t memory(const Branch& branch);
+
 class Timeline {
 public:
-    explicit Timeline(const CacheOptions& options = {}) : options_(options) {}
+    explicit Timeline(const CacheOptions& options = {}) : options_(options) { revise(); }
 
     const std::vector<Branch>& branches() const { return branches_; } ///< parents before their children
     const std::vector<Bookmark>& bookmarks() const { return bookmarks_; }
@@ -42,9 +48,26 @@ public:
     std::uint64_t step_of_frame(BranchId id, std::uint64_t frame) const;
     /// Whether a state can be had: it has not been dropped from the cache, and has been computed.
     bool reachable(const Moment& moment) const;
-    /// Of a line: the reachable step nearest to one that may not be, and the first that is not before it.
+    /// Of a line: the reachable step nearest to one that may not be.
     std::uint64_t nearest_reachable(const Moment& moment) const;
+    /// The first reachable one that is not before it, or the line's end.
     std::uint64_t next_reachable(const Moment& moment) const;
+    /// The last reachable one that is not after it; none when there is none.
+    std::optional<std::uint64_t> previous_reachable(const Moment& moment) const;
+    /// Calls take(first, last) for ranges of reachable steps of a line, the last ones first.
+    template <class Take>
+    void for_reachable(BranchId id, Take take) const {
+        const std::vector<const Branch*> branches = line(id);
+        std::uint64_t last = branches.front()->end;
+        for (const Branch* branch : branches) {
+            for (auto keyframe = branch->keyframes.rbegin(); keyframe != branch->keyframes.rend(); ++keyframe)
+                if (keyframe->step <= last)
+                    take(keyframe->step, std::min(keyframe->until, last));
+            if (branch->fork_step == 0)
+                return;
+            last = branch->fork_step - 1;
+        }
+    }
 
     /// The new branch's number. A name is made up when it is empty.
     BranchId add_root(DescriptionPtr start, const FrameClock& clock, std::string name = {});
@@ -60,6 +83,11 @@ public:
     void rename_bookmark(std::uint32_t id, std::string name);
     void remove_bookmark(std::uint32_t id);
     const Bookmark* find_bookmark(std::uint32_t id) const;
+
+    /// Another number whenever states are no longer what they were: by another change, or as a branch has been cut.
+    /// What only grows keeps it; copies have the original's.
+    std::uint64_t revision() const { return revision_; }
+    void revise();
 
     /// Stores a state of a branch, in place of one of the same step.
     void store(BranchId id, Keyframe keyframe);
@@ -81,11 +109,9 @@ private:
     void thin(std::size_t most, std::uint64_t gap);
     void drop(std::size_t most, bool kept_too);
     static void forget_unreachable(Branch& branch);
-    /// Calls take(first, last) for ranges of reachable steps of a line, the last ones first.
-    template <class Take>
-    void for_reachable(BranchId id, Take take) const;
 
     CacheOptions options_;
+    std::uint64_t revision_;
     std::size_t stored_ = 0; ///< bytes of all keyframes
     std::vector<Branch> branches_;
     std::vector<Bookmark> bookmarks_;
