@@ -62,7 +62,7 @@ Overview overview(const Player& player) {
             add_branches(timeline, branch, o.branches);
     o.bookmarks = timeline.bookmarks();
     o.memory = player.memory();
-    o.budget = timeline.options().budget;
+    o.budget = player.options().budget;
     o.line = player.line();
     if (o.line == 0)
         return o;

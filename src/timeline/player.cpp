@@ -13,6 +13,8 @@ namespace {
 /// States are stored so close that a seek takes this share of what it may; the rest is for the steps within a frame and
 /// for thinning out.
 constexpr double stored_share = 0.4;
+/// Of the budget, for states on the way of a seek.
+constexpr std::size_t way_share = 8;
 constexpr std::uint64_t widest_stride = 16; ///< frames
 /// Of the newest frame in the mean cost of a frame.
 constexpr double newest_share = 0.1;
@@ -31,8 +33,9 @@ std::string sentence(const char* format, double value) {
 
 } // namespace
 
-Player::Player(const CacheOptions& options, const sim::Execution& execution) : Reader(execution), timeline_(options) {
+Player::Player(const CacheOptions& options, const sim::Execution& execution) : Reader(execution) {
     observed_ = true;
+    set_options(options);
 }
 
 void Player::start(const sim::Description& description) {
@@ -380,7 +383,11 @@ void Player::adopt(Timeline timeline, const Moment& at) {
 }
 
 void Player::set_options(const CacheOptions& options) {
-    timeline_.set_options(options);
+    options_ = options;
+    most_passed_bytes_ = options.budget / way_share;
+    CacheOptions stored = options;
+    stored.budget -= most_passed_bytes_;
+    timeline_.set_options(stored);
     timeline_.fit(seconds_per_frame_);
     ++version_;
 }

@@ -50,6 +50,7 @@ public:
     /// when the moment cannot be gone to.
     void adopt(Timeline timeline, const Moment& at);
     void set_options(const CacheOptions& options);
+    const CacheOptions& options() const { return options_; }
 
     const Timeline& timeline() const { return timeline_; }
     Moment moment() const { return {line_, simulation_ ? simulation_->steps() : 0}; } ///< of the line shown
@@ -89,6 +90,7 @@ private:
     void finish_change(Branch& branch);
     void begin_branch();
 
+    CacheOptions options_;
     Timeline timeline_;
     BranchId line_ = 0;
     std::uint64_t version_ = 0;

@@ -5,13 +5,6 @@
 #include <utility>
 
 namespace clothlab::timeline {
-namespace {
-
-/// Of states on the way of a seek.
-constexpr std::size_t most_passed_bytes = std::size_t{16} << 20;
-
-} // namespace
-
 void Reader::take(const DescriptionPtr& description, const std::vector<std::byte>* state) {
     const bool fits = state && simulation_ && can_change_live(simulation_->description(), *description);
     if (!fits) {
@@ -54,7 +47,7 @@ void Reader::pass() {
         return;
     passed_.push_back({at_, description_, simulation_->save_state()});
     passed_bytes_ += passed_.back().state.size();
-    while (passed_bytes_ > most_passed_bytes && passed_.size() > 1) {
+    while (passed_bytes_ > most_passed_bytes_ && !passed_.empty()) {
         passed_bytes_ -= passed_.front().state.size();
         passed_.pop_front();
     }

@@ -38,6 +38,7 @@ protected:
     void take(const DescriptionPtr& description, const std::vector<std::byte>* state);
     void change(const DescriptionPtr& description);
     sim::Execution execution_;
+    std::size_t most_passed_bytes_ = std::size_t{8} << 20;
     bool observed_ = false; ///< simulations are timed and watched for trouble
     std::unique_ptr<sim::Simulation> simulation_;
     DescriptionPtr description_;

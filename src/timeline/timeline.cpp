@@ -31,6 +31,11 @@ std::size_t bytes_without_keyframes(const Branch& branch) {
     return sum;
 }
 
+/// Simulated seconds that are reached from a state.
+double span_s(const Branch& branch, const Keyframe& keyframe) {
+    return frame_time(branch, keyframe.until).time - frame_time(branch, keyframe.step).time;
+}
+
 auto first_after(std::vector<Keyframe>& keyframes, std::uint64_t step) {
     return std::upper_bound(keyframes.begin(), keyframes.end(), step,
                             [](std::uint64_t s, const Keyframe& k) { return s < k.step; });
@@ -321,8 +326,9 @@ void Timeline::thin(std::size_t most, std::uint64_t gap) {
     }
 }
 
-void Timeline::drop(std::size_t most, bool kept_too) {
+void Timeline::drop(std::size_t most, bool kept_too, double least_reach_s) {
     std::size_t now = memory();
+    double reach = reach_s();
     for (Branch& branch : branches_) {
         if (now <= most)
             return;
@@ -331,9 +337,11 @@ void Timeline::drop(std::size_t most, bool kept_too) {
         std::size_t left = 0;
         for (std::size_t i = 0; i < list.size(); ++i) {
             // What is at a branch's end is where it goes on.
-            const bool goes = now > most && i + 1 < before && list[i].state && (kept_too || !list[i].kept);
+            bool goes = now > most && i + 1 < before && list[i].state && (kept_too || !list[i].kept);
+            const double span = goes ? span_s(branch, list[i]) : 0;
+            goes = goes && reach - span >= least_reach_s;
             if (goes)
-                now -= bytes(list[i]), stored_ -= bytes(list[i]);
+                now -= bytes(list[i]), stored_ -= bytes(list[i]), reach -= span;
             else if (left++ != i)
                 list[left - 1] = std::move(list[i]);
         }
@@ -384,7 +392,7 @@ double Timeline::reach_s() const {
     double sum = 0;
     for (const Branch& branch : branches_)
         for (const Keyframe& keyframe : branch.keyframes)
-            sum += timeline::frame_time(branch, keyframe.until).time - timeline::frame_time(branch, keyframe.step).time;
+            sum += span_s(branch, keyframe);
     return sum;
 }
 
@@ -401,11 +409,12 @@ void Timeline::fit(double seconds_per_frame) {
             thin(most, std::min(gap, widest));
     };
     thin_to(frames(options_.seek_s));
-    if (memory() > most && reach_s() < options_.least_reach_s)
-        thin_to(frames(slowest * options_.seek_s));
+    if (memory() > most)
+        drop(most, false, options_.least_reach_s);
+    thin_to(frames(slowest * options_.seek_s));
     for (const bool kept_too : {false, true})
         if (memory() > most)
-            drop(most, kept_too);
+            drop(most, kept_too, 0);
 }
 
 } // namespace clothlab::timeline

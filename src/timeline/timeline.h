@@ -107,7 +107,7 @@ public:
 
 private:
     void thin(std::size_t most, std::uint64_t gap);
-    void drop(std::size_t most, bool kept_too);
+    void drop(std::size_t most, bool kept_too, double least_reach_s);
     static void forget_unreachable(Branch& branch);
 
     CacheOptions options_;

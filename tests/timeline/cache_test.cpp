@@ -1,0 +1,183 @@
+// The cache: what stays within the budget, and what goes first.
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+
+#include "sim/random.h"
+#include "support/effort.h"
+#include "timeline/overview.h"
+
+using namespace clothlab;
+using namespace clothlab::test;
+using namespace clothlab::timeline;
+
+namespace {
+
+sim::Description tiny_cloth() {
+    sim::Description d;
+    d.cloth.num_width_points = 4;
+    d.cloth.num_height_points = 3;
+    d.cloth.pinned = {{0, 0}};
+    d.stepping.substeps = 2;
+    return d;
+}
+
+/// A branch without a simulation behind it: a state of so many bytes at every frame's end.
+Timeline made_up(std::size_t budget, std::uint64_t frames, std::size_t bytes, double least_reach_s = 0) {
+    Timeline timeline({.budget = budget, .seek_s = 0.01, .least_reach_s = least_reach_s});
+    const auto description = std::make_shared<const sim::Description>();
+    const BranchId id = timeline.add_root(description, {0, 0, 0, 30, 0, 1.0 / 2700});
+    timeline.store(id, {0, 0, description, nullptr, false});
+    Branch& branch = *timeline.find(id);
+    for (std::uint64_t frame = 1; frame <= frames; ++frame) {
+        branch.end = 30 * frame;
+        branch.keyframes.back().until = branch.end;
+        branch.samples.push_back({.frame = frame, .time = static_cast<double>(frame) / 90});
+        timeline.store(id, {branch.end, branch.end, description, keep_in_memory(std::vector<std::byte>(bytes)), false});
+    }
+    return timeline;
+}
+
+/// The most frames from one stored state to the next, over all that is reachable.
+std::uint64_t widest_gap(const Branch& branch) {
+    std::uint64_t widest = 0;
+    for (const Keyframe& keyframe : branch.keyframes)
+        widest = std::max(widest, (keyframe.until - keyframe.step) / 30);
+    return widest;
+}
+
+std::uint64_t hash_at(Player& player, std::uint64_t step) {
+    REQUIRE(player.seek(step));
+    return player.simulation().hash();
+}
+
+} // namespace
+
+TEST_CASE("Within the budget nothing is thinned out") {
+    Timeline timeline = made_up(1 << 20, 100, 1000);
+    timeline.fit(0.001);
+    const Branch& branch = timeline.branches()[0];
+    REQUIRE(branch.keyframes.size() == 101);
+    REQUIRE(widest_gap(branch) == 1);
+}
+
+TEST_CASE("Over the budget states thin out evenly, the older ones first, and every frame stays reachable") {
+    Timeline timeline = made_up(100'000, 150, 1000);
+    REQUIRE(timeline.memory() > 100'000);
+    timeline.fit(0.001); // ten frames are within a seek's time
+    REQUIRE(timeline.memory() <= 100'000);
+    const Branch& branch = timeline.branches()[0];
+    REQUIRE(widest_gap(branch) == 2);
+    const auto stored_between = [&](std::uint64_t from, std::uint64_t to) {
+        return std::count_if(branch.keyframes.begin(), branch.keyframes.end(),
+                             [&](const Keyframe& k) { return k.step >= 30 * from && k.step < 30 * to; });
+    };
+    REQUIRE(stored_between(0, 50) == 25);
+    REQUIRE(stored_between(100, 150) > 25);
+    for (std::uint64_t step = 0; step <= branch.end; ++step)
+        REQUIRE(timeline.reachable({branch.id, step}));
+}
+
+TEST_CASE("No seek becomes slower than it may: then the oldest states are dropped, and with them their frames") {
+    for (const double frame_s : {0.001, 0.003, 0.1}) {
+        Timeline timeline = made_up(20'000, 400, 1000);
+        timeline.fit(frame_s);
+        INFO(frame_s << " s for a frame");
+        REQUIRE(timeline.memory() <= 20'000);
+        const Branch& branch = timeline.branches()[0];
+        REQUIRE(widest_gap(branch) <= std::max(1.0, std::floor(0.01 / frame_s)));
+        REQUIRE(timeline.reachable({branch.id, branch.end})); // the newest
+        REQUIRE(timeline.reachable({branch.id, 0}));          // a start costs nothing
+        REQUIRE_FALSE(timeline.reachable({branch.id, 100 * 30}));
+        // What is reachable has its samples, and what is not has none.
+        for (const Sample& sample : branch.samples)
+            REQUIRE(timeline.reachable({branch.id, 30 * sample.frame}));
+        REQUIRE(branch.samples.back().frame == 400);
+    }
+}
+
+TEST_CASE("A slower seek is better than losing the last minute") {
+    Timeline timeline = made_up(150'000, 600, 1000, 5);
+    timeline.fit(0.003); // three frames in a seek's time; a stride of twelve keeps all, and so six of the seconds
+    REQUIRE(timeline.memory() <= 150'000);
+    REQUIRE(timeline.reach_s() >= 5);
+    REQUIRE(widest_gap(timeline.branches()[0]) <= 12);
+}
+
+TEST_CASE("Bookmarked and marked states go last") {
+    Timeline timeline = made_up(1 << 20, 400, 1000);
+    const BranchId id = timeline.branches()[0].id;
+    timeline.add_bookmark({id, 30 * 100}, "fold", {});
+    timeline.find(id)->marks.push_back({MarkKind::first_contact, 30 * 150, 150, 0, "contact"});
+    timeline.refresh_kept(id);
+    CacheOptions options = timeline.options();
+    options.budget = 20'000;
+    timeline.set_options(options);
+    timeline.fit(0.1);
+    REQUIRE(timeline.memory() <= 20'000);
+    REQUIRE(timeline.reachable({id, 30 * 100}));
+    REQUIRE(timeline.reachable({id, 30 * 150}));
+    REQUIRE_FALSE(timeline.reachable({id, 30 * 120}));
+    options.budget = 2'000; // not even for those
+    timeline.set_options(options);
+    timeline.fit(0.1);
+    REQUIRE_FALSE(timeline.reachable({id, 30 * 100}));
+    REQUIRE(timeline.reachable({id, 30 * 400}));
+}
+
+TEST_CASE("An hour of play stays within the budget, and what is reachable is right to the bit") {
+    const std::uint64_t frames = sanitized ? 20'000 : 324'000; // at 90 a second
+    const std::size_t budget = sanitized ? 300'000 : 4'000'000;
+    Player player({.budget = budget, .seek_s = 1e-4});
+    sim::Description description = tiny_cloth();
+    player.start(description);
+    const auto straight = sim::Simulation::create(description);
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> hashes; // of some steps
+    for (std::uint64_t frame = 0; frame < frames; ++frame) {
+        if (frame % 5000 == 2500) { // somebody plays with the stiffness
+            description.cloth.ks = 4000 + static_cast<double>(frame % 7) * 100;
+            player.change(description);
+            straight->change(description);
+        }
+        for (int n = 0; n < 2; ++n)
+            player.step(), straight->step();
+        if (frame % 1000 == 0)
+            REQUIRE(player.memory() <= budget);
+        if (frame % 997 == 0)
+            hashes.emplace_back(straight->steps(), straight->hash());
+    }
+    REQUIRE(player.simulation().hash() == straight->hash());
+    std::size_t reached = 0;
+    for (const auto& [step, hash] : hashes)
+        if (player.timeline().reachable({player.line(), step})) {
+            ++reached;
+            REQUIRE(hash_at(player, step) == hash);
+        }
+    REQUIRE(reached > 0);
+    REQUIRE(reached < hashes.size()); // or the budget was no test
+    REQUIRE(player.timeline().branches().size() == 1);
+}
+
+TEST_CASE("With 64 MB a 50 x 50 cloth keeps a minute of frames reachable, exactly") {
+    const int frames = sanitized ? 540 : 5400;
+    sim::Description description; // the course's: 50 x 50 points, 90 frames/s, 30 substeps
+    description.cloth.pinned = {{0, 0}, {49, 0}};
+    Player player({.budget = (std::size_t{64} << 20) / (sanitized ? 10 : 1)});
+    player.start(description);
+    std::vector<std::uint64_t> hashes{player.simulation().hash()};
+    for (int frame = 0; frame < frames; ++frame) {
+        for (int n = 0; n < 30; ++n)
+            player.step();
+        hashes.push_back(player.simulation().hash());
+    }
+    REQUIRE(player.memory() <= player.options().budget);
+    const Overview o = overview(player);
+    REQUIRE(o.reachable.size() == 1);
+    REQUIRE(o.reachable[0].first == 0);
+    REQUIRE(o.reachable[0].last == static_cast<std::uint64_t>(frames));
+    sim::SplitMix64 random(1);
+    for (int n = 0; n < 40; ++n) {
+        const std::uint64_t frame = random.next() % hashes.size();
+        REQUIRE(hash_at(player, 30 * frame) == hashes[frame]);
+        REQUIRE(player.memory() <= player.options().budget);
+    }
+}
