@@ -230,14 +230,14 @@ bool Textbook::collide(const Plane& plane, PointMass& pm) const {
     return true;
 }
 
-std::size_t Textbook::collide_with_objects() {
-    std::size_t contacts = 0;
+std::array<std::size_t, 2> Textbook::collide_with_objects() {
+    std::array<std::size_t, 2> contacts{};
     for (const auto& object : objects_) {
         std::visit(
             [&](const auto& shape) {
                 for (PointMass& pm : point_masses_)
                     if (!pm.pinned)
-                        contacts += collide(shape, pm) ? 1u : 0u;
+                        contacts[object.index()] += collide(shape, pm) ? 1u : 0u;
             },
             object);
     }
@@ -270,8 +270,12 @@ sim::StepCounts Textbook::step() {
     run(sim::Stage::integrate, [this] { return integrate(), 0; });
     if (description_.rules.self_collision == sim::SelfCollisionRule::cs184)
         counts.self_contacts = run(sim::Stage::self_collision, [this] { return collide_with_itself(); });
-    if (!objects_.empty())
-        counts.contacts = run(sim::Stage::colliders, [this] { return collide_with_objects(); });
+    if (!objects_.empty()) {
+        const auto [spheres, planes] = run(sim::Stage::colliders, [this] { return collide_with_objects(); });
+        counts.sphere_contacts = spheres;
+        counts.plane_contacts = planes;
+        counts.contacts = spheres + planes;
+    }
     if (description_.rules.limit == sim::LimitRule::cs184)
         counts.shortened_springs = run(sim::Stage::limit, [this] { return limit_stretch(); });
     return counts;

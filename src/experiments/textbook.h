@@ -5,6 +5,7 @@
 // and no copies in the loops, constants taken out of them, and the same compiler options as for all the rest.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -87,7 +88,7 @@ private:
     std::size_t collide_with_itself();
     bool collide(const sim::Sphere& sphere, PointMass& pm) const;
     bool collide(const Plane& plane, PointMass& pm) const;
-    std::size_t collide_with_objects();
+    std::array<std::size_t, 2> collide_with_objects(); ///< contacts with spheres, planes
     std::size_t limit_stretch();
 
     sim::Description description_;

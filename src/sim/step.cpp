@@ -85,7 +85,10 @@ StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& w
     }
     if (!model.colliders.empty()) {
         const StageTimer timer(work, Stage::colliders);
-        counts.contacts = resolve_colliders(model, state, work);
+        const ColliderContacts contacts = resolve_colliders(model, state, work);
+        counts.contacts = contacts.all();
+        counts.sphere_contacts = contacts.spheres;
+        counts.plane_contacts = contacts.planes;
     }
     if (model.rules.limit != LimitRule::off) {
         const StageTimer timer(work, Stage::limit);

@@ -9,8 +9,9 @@ namespace clothlab::sim {
 
 /// What a step's contact stages did.
 struct StepCounts {
-    std::size_t self_contacts = 0;     ///< pairs pushed apart, counted from both sides
-    std::size_t contacts = 0;          ///< points put out of a collider
+    std::size_t self_contacts = 0; ///< pairs pushed apart, counted from both sides
+    std::size_t contacts = 0;      ///< points put out of a collider: of a sphere and of a plane
+    std::size_t sphere_contacts = 0, plane_contacts = 0;
     std::size_t shortened_springs = 0; ///< springs that the stretch limit shortened
     std::size_t force_evaluations = 0; ///< of all points' forces
     std::size_t solver_iterations = 0; ///< of the method's linear solver, or its sweeps over springs or points

@@ -25,7 +25,7 @@ void prepare(const Model<Real>& model, Workspace<Real>& work) {
             scratch.resize(sweep_scratch(static_cast<std::size_t>(model.grid->columns)));
         work.pin_previous.resize(model.pins.size());
         work.proximity.resize(threads);
-        work.counts.resize(threads);
+        work.counts.resize(2 * threads);
     }
     if (model.rules.self_collision != SelfCollisionRule::none)
         prepare_self_collision(model, work);

@@ -36,7 +36,7 @@ struct Workspace {
     bool limit_was_idle = false;                   ///< the last sweep shortened nothing
     SelfCollisionWork<Real> self_collision;
     std::vector<ProximityArguments<Real>> proximity; ///< per thread
-    std::vector<std::size_t> counts;                 ///< per thread
+    std::vector<std::size_t> counts;                 ///< two per thread
 
     StageSeconds seconds{}; ///< summed up over all steps when timed
     bool timed = false;

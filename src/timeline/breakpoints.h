@@ -1,5 +1,6 @@
 // Physics breakpoints: conditions at which a run pauses. A breakpoint hits when its condition becomes true in a step:
-// it was not before the step and is after it. So it depends on the two states alone, and hits again wherever a run is
+// it was not before the step and is after it. Contacts and a gain of energy are what happens in a step: they hit when
+// they happen in one and did not in the one before. So a hit depends on the run alone, and comes again wherever it is
 // rewound and played again.
 #pragma once
 
@@ -28,7 +29,7 @@ inline constexpr std::size_t breakpoint_kinds = 8;
 
 struct BreakpointKindInfo {
     const char* name; ///< as people read it
-    const char* unit; ///< of `value`; empty: it has none
+    const char* unit; ///< of `value`, "%" of a hundred times it; empty: it has none
     const char* help; ///< a sentence
     double value;     ///< at first
 };
@@ -52,7 +53,8 @@ public:
     void set(std::vector<Breakpoint> breakpoints);
     const std::vector<Breakpoint>& breakpoints() const { return breakpoints_; }
     bool any() const;
-    /// After a seek or a change: what is true now has not become true in a step.
+    /// After a seek or a change: what is true now has not become true in a step. What happened in the step before is
+    /// not known then and is taken to be the same as in the next, except at the run's start.
     void reset() { known_ = false; }
     /// Before each step.
     void before_step(const sim::Simulation& simulation);
@@ -61,10 +63,9 @@ public:
 
 private:
     std::vector<Breakpoint> breakpoints_;
-    std::vector<bool> was_;  ///< true before the step, by breakpoint
-    double energy_ = 0;      ///< J, before the step
-    bool known_ = false;     ///< was_ and energy_ are of the state now
-    sim::StepCounts counts_; ///< of the last step
+    std::vector<bool> was_; ///< true before the step, by breakpoint
+    double energy_ = 0;     ///< J, before the step
+    bool known_ = false;    ///< was_ and energy_ are of the state now
 };
 
 } // namespace clothlab::timeline

@@ -4,6 +4,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "sim/collision/colliders.h"
+#include "support/every_execution.h"
 #include "support/sheet.h"
 
 using namespace clothlab;
@@ -41,7 +42,7 @@ TEST_CASE("After the sphere stage no free point is inside the sphere, and points
     Sheet<double> sheet = sheet_with(sim::Sphere{centre, radius, 0});
     scatter(sheet, 1);
     const sim::State<double> before = sheet.state;
-    const std::size_t contacts = sim::resolve_colliders(sheet.model, sheet.state, sheet.work);
+    const std::size_t contacts = sim::resolve_colliders(sheet.model, sheet.state, sheet.work).all();
     std::size_t inside = 0;
     for (std::size_t i = 0; i < sheet.points(); ++i) {
         const sim::Vec3 was = Sheet<double>::coordinates(before.position, i), is = sheet.position(i);
@@ -65,10 +66,10 @@ TEST_CASE("A point at the very centre of a sphere has no direction and stays") {
     for (std::size_t i = 0; i < sheet.points(); ++i)
         sheet.place(i, {0.3, 5, 0.1});
     sheet.put(sheet.state.position, 3, centre);
-    REQUIRE(sim::resolve_colliders(sheet.model, sheet.state, sheet.work) == 0);
+    REQUIRE(sim::resolve_colliders(sheet.model, sheet.state, sheet.work).all() == 0);
     REQUIRE(sheet.position(3) == centre);
     sheet.put(sheet.state.position, 3, {centre.x, centre.y + 1e-12, centre.z});
-    REQUIRE(sim::resolve_colliders(sheet.model, sheet.state, sheet.work) == 1);
+    REQUIRE(sim::resolve_colliders(sheet.model, sheet.state, sheet.work).all() == 1);
     REQUIRE_THAT(sheet.position(3).y, WithinRel(centre.y + radius, 1e-12));
 }
 
@@ -78,7 +79,7 @@ TEST_CASE("After the plane stage no point that started above is below, and none 
     scatter(sheet, 2);
     const auto height = [&](sim::Vec3 x) { return dot(minus(x, point), normal) / norm(normal); };
     const sim::State<double> before = sheet.state;
-    const std::size_t contacts = sim::resolve_colliders(sheet.model, sheet.state, sheet.work);
+    const std::size_t contacts = sim::resolve_colliders(sheet.model, sheet.state, sheet.work).all();
     std::size_t down = 0, up = 0;
     for (std::size_t i = 0; i < sheet.points(); ++i) {
         const sim::Vec3 was = Sheet<double>::coordinates(before.position, i), is = sheet.position(i);
@@ -116,7 +117,7 @@ TEST_CASE("A plane's normal counts by its direction, not by its length") {
     Sheet<double> fourfold = sheet_with(sim::Plane{{0, 0, 0}, {0, 4, 0}, 0.25});
     scatter(once, 3);
     scatter(fourfold, 3);
-    REQUIRE(sim::resolve_colliders(once.model, once.state, once.work) > 0);
+    REQUIRE(sim::resolve_colliders(once.model, once.state, once.work).all() > 0);
     sim::resolve_colliders(fourfold.model, fourfold.state, fourfold.work);
     REQUIRE(once.state == fourfold.state);
 }
@@ -128,7 +129,7 @@ TEST_CASE("With friction 1 a point in contact stays where it was, and with less 
         const sim::Collider plane = sim::Plane{{0, 0.05, 0}, {0, 1, 0}, friction};
         Sheet<double> sheet = sheet_with(on_sphere ? sphere : plane);
         scatter(sheet, 4);
-        return std::pair{sim::resolve_colliders(sheet.model, sheet.state, sheet.work), std::move(sheet)};
+        return std::pair{sim::resolve_colliders(sheet.model, sheet.state, sheet.work).all(), std::move(sheet)};
     };
     const auto [contacts, sliding] = run(0);
     const auto [same, creeping] = run(0.75);
@@ -176,10 +177,36 @@ TEST_CASE("Colliders act in scene order") {
         Sheet<double> sheet(description);
         sheet.put(sheet.state.previous, 0, {0, 0.6, 0});
         sheet.put(sheet.state.position, 0, {0, 0, 0});
-        return std::pair{sim::resolve_colliders(sheet.model, sheet.state, sheet.work), sheet.position(0).y};
+        return std::pair{sim::resolve_colliders(sheet.model, sheet.state, sheet.work).all(), sheet.position(0).y};
     };
     REQUIRE(height(high, low) == std::pair{std::size_t{1}, 0.4 + 1e-4}); // out of the first, it misses the second
     const auto [contacts, y] = height(low, high);
     REQUIRE(contacts == 2);
     REQUIRE_THAT(y, WithinAbs(0.4 + 1e-4, 1e-15));
+}
+
+TEST_CASE("Contacts are counted by what is touched, whatever computes them") {
+    const auto sphere_and_plane = [](sim::FrictionRule friction, const sim::Execution& execution) {
+        sim::Description description = bare_cloth(20, 20);
+        description.rules.friction = friction;
+        description.colliders = {sim::Sphere{centre, radius, 0.1}, sim::Plane{{0, -5, 0}, {0, 1, 0}, 0}};
+        Sheet<float> sheet(description, execution);
+        for (std::size_t i = 0; i < sheet.points(); ++i)
+            sheet.place(i, {0, 5, 0}); // off everything
+        for (std::size_t i = 0; i < 3; ++i)
+            sheet.put(sheet.state.position, i, {centre.x, centre.y + 0.1 + 0.1 * static_cast<double>(i), centre.z});
+        for (std::size_t i = 100; i < 107; ++i)
+            sheet.put(sheet.state.position, i, {2, -5.1, 2});
+        return sheet.step();
+    };
+    for (const sim::FrictionRule friction : {sim::FrictionRule::cs184, sim::FrictionRule::physical}) {
+        for (const sim::InstructionSet set : supported_sets()) {
+            for (const int threads : {1, 3}) {
+                const sim::StepCounts counts = sphere_and_plane(friction, exactly(set, threads));
+                CHECK(counts.sphere_contacts == 3);
+                CHECK(counts.plane_contacts == 7);
+                CHECK(counts.contacts == 10);
+            }
+        }
+    }
 }

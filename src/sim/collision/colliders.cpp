@@ -1,7 +1,6 @@
 #include "sim/collision/colliders.h"
 
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "sim/collision/physical_contacts.h"
@@ -45,45 +44,61 @@ bool collide(const PlaneModel<Real>& s, State<Real>& state, std::size_t i) {
 }
 
 template <class Real>
-std::size_t resolve_by_kernels(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+std::size_t contacts_by(const Kernels<Real>& kernels, const ContactArguments<Real>& points,
+                        const SphereModel<Real>& sphere) {
+    return kernels.sphere(points, sphere);
+}
+template <class Real>
+std::size_t contacts_by(const Kernels<Real>& kernels, const ContactArguments<Real>& points,
+                        const PlaneModel<Real>& plane) {
+    return kernels.plane(points, plane);
+}
+
+template <class Real>
+ColliderContacts resolve_by_kernels(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
     const int ranges = for_ranges(model, work, [&](int index, std::size_t begin, std::size_t end) {
-        const ContactArguments<Real> arguments{state.position.axes(), std::as_const(state.previous).axes(), begin, end,
-                                               model.pins.empty() ? nullptr : model.pinned.data()};
-        std::size_t contacts = 0;
-        for (const auto& collider : model.colliders) {
-            if (const auto* sphere = std::get_if<SphereModel<Real>>(&collider))
-                contacts += work.kernels->sphere(arguments, *sphere);
-            else
-                contacts += work.kernels->plane(arguments, std::get<PlaneModel<Real>>(collider));
-        }
-        work.counts[static_cast<std::size_t>(index)] = contacts;
+        const ContactArguments<Real> points{state.position.axes(), std::as_const(state.previous).axes(), begin, end,
+                                            model.pins.empty() ? nullptr : model.pinned.data()};
+        ColliderContacts contacts;
+        for (const auto& collider : model.colliders)
+            std::visit([&](const auto& shape) { contacts.of(shape) += contacts_by(*work.kernels, points, shape); },
+                       collider);
+        const auto own = 2 * static_cast<std::size_t>(index);
+        work.counts[own] = contacts.spheres;
+        work.counts[own + 1] = contacts.planes;
     });
-    return std::accumulate(work.counts.begin(), work.counts.begin() + ranges, std::size_t{0});
+    ColliderContacts all;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(ranges); ++i) {
+        all.spheres += work.counts[2 * i];
+        all.planes += work.counts[2 * i + 1];
+    }
+    return all;
 }
 
 } // namespace
 
 template <class Real>
-std::size_t resolve_colliders(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+ColliderContacts resolve_colliders(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
     if (model.rules.friction != FrictionRule::cs184 || model.rules.plane != PlaneRule::cs184)
         return resolve_physical_contacts(model, state);
     if (work.kernels)
         return resolve_by_kernels(model, state, work);
-    std::size_t contacts = 0;
+    ColliderContacts contacts;
     // Points do not depend on each other here, so going through the colliders outside gives the same bits as inside.
     for (const auto& collider : model.colliders) {
         std::visit(
             [&](const auto& shape) {
+                std::size_t& count = contacts.of(shape);
                 for (std::size_t i = 0; i < state.position.size(); ++i)
                     if (!model.pinned[i])
-                        contacts += collide(shape, state, i) ? 1u : 0u;
+                        count += collide(shape, state, i) ? 1u : 0u;
             },
             collider);
     }
     return contacts;
 }
 
-template std::size_t resolve_colliders<float>(const Model<float>&, State<float>&, Workspace<float>&);
-template std::size_t resolve_colliders<double>(const Model<double>&, State<double>&, Workspace<double>&);
+template ColliderContacts resolve_colliders<float>(const Model<float>&, State<float>&, Workspace<float>&);
+template ColliderContacts resolve_colliders<double>(const Model<double>&, State<double>&, Workspace<double>&);
 
 } // namespace clothlab::sim

@@ -7,11 +7,27 @@
 
 namespace clothlab::sim {
 
-/// Moves every free point out of every collider, in scene order. Returns the number of contacts found.
-template <class Real>
-std::size_t resolve_colliders(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);
+/// Contacts found, by what was touched.
+struct ColliderContacts {
+    std::size_t spheres = 0, planes = 0;
+    std::size_t all() const { return spheres + planes; }
+    bool operator==(const ColliderContacts&) const = default;
+    /// The number for colliders like this one.
+    template <class Real>
+    std::size_t& of(const SphereModel<Real>&) {
+        return spheres;
+    }
+    template <class Real>
+    std::size_t& of(const PlaneModel<Real>&) {
+        return planes;
+    }
+};
 
-extern template std::size_t resolve_colliders<float>(const Model<float>&, State<float>&, Workspace<float>&);
-extern template std::size_t resolve_colliders<double>(const Model<double>&, State<double>&, Workspace<double>&);
+/// Moves every free point out of every collider, in scene order.
+template <class Real>
+ColliderContacts resolve_colliders(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);
+
+extern template ColliderContacts resolve_colliders<float>(const Model<float>&, State<float>&, Workspace<float>&);
+extern template ColliderContacts resolve_colliders<double>(const Model<double>&, State<double>&, Workspace<double>&);
 
 } // namespace clothlab::sim

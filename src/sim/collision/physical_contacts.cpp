@@ -70,11 +70,11 @@ Triple<Real> coulomb_friction(const Contact<Real>& c, Real mu) {
 } // namespace
 
 template <class Real>
-std::size_t resolve_physical_contacts(const Model<Real>& model, State<Real>& state) {
+ColliderContacts resolve_physical_contacts(const Model<Real>& model, State<Real>& state) {
     Vec3Array<Real>& x = state.position;
     const Vec3Array<Real>& p = state.previous;
     const bool coulomb = model.rules.friction == FrictionRule::physical;
-    std::size_t contacts = 0;
+    ColliderContacts contacts;
     const auto resolve = [&](const auto& shape) {
         for (std::size_t i = 0; i < x.size(); ++i) {
             if (model.pinned[i])
@@ -83,7 +83,7 @@ std::size_t resolve_physical_contacts(const Model<Real>& model, State<Real>& sta
             if (!contact)
                 continue;
             put(x, i, coulomb ? coulomb_friction(*contact, shape.friction) : course_friction(*contact, shape.slide));
-            ++contacts;
+            ++contacts.of(shape);
         }
     };
     for (const auto& collider : model.colliders)
@@ -91,7 +91,7 @@ std::size_t resolve_physical_contacts(const Model<Real>& model, State<Real>& sta
     return contacts;
 }
 
-template std::size_t resolve_physical_contacts<float>(const Model<float>&, State<float>&);
-template std::size_t resolve_physical_contacts<double>(const Model<double>&, State<double>&);
+template ColliderContacts resolve_physical_contacts<float>(const Model<float>&, State<float>&);
+template ColliderContacts resolve_physical_contacts<double>(const Model<double>&, State<double>&);
 
 } // namespace clothlab::sim

@@ -167,7 +167,7 @@ TEST_CASE("The physical plane puts what is below it on it, wherever that came fr
         }
         Sheet<double>::put(sheet.state.position, sheet.at(3, 3), {0, -3, 0});
         const sim::State<double> before = sheet.state;
-        const std::size_t contacts = sim::resolve_colliders(sheet.model, sheet.state, sheet.work);
+        const std::size_t contacts = sim::resolve_colliders(sheet.model, sheet.state, sheet.work).all();
         std::size_t below = 0;
         for (std::size_t i = 0; i < sheet.points(); ++i) {
             const sim::Vec3 was = Sheet<double>::coordinates(before.position, i), is = sheet.position(i);
