@@ -8,23 +8,23 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "app/core/published.h"
 #include "sim/description.h"
-#include "sim/snapshot.h"
+#include "timeline/breakpoints.h"
+#include "timeline/timeline.h"
+
+namespace clothlab::timeline {
+class Player;
+}
 
 namespace clothlab::app {
 
-/// What the thread has to show.
-struct Published {
-    std::shared_ptr<const sim::Snapshot> snapshot; ///< none before the first scene has been built
-    std::uint64_t run = 0;                         ///< counts the starts: which start() the snapshot belongs to
-    bool playing = false;
-    double real_time_factor = 0; ///< simulated seconds per second, over the last half second of playing; 0 when unknown
-    std::string error;           ///< why the last start or change was refused; empty when it was not
-    std::uint64_t done = 0;      ///< tickets up to this one have been done, or ended by trouble or a newer command
-};
+class SimulationWorker;
 
 class SimulationThread {
 public:
@@ -34,18 +34,43 @@ public:
     SimulationThread(const SimulationThread&) = delete;
     SimulationThread& operator=(const SimulationThread&) = delete;
 
-    /// Starts a run of a description at time 0, paused or playing as before. A description without meaning is refused
-    /// (Published::error) and the run under way goes on.
+    /// Forgets all runs and starts one of a description at time 0, paused or playing as before. A description without
+    /// meaning is refused (Published::error) and the run under way goes on.
     void start(const sim::Description& description);
+    /// Starts another run beside those there are.
+    void restart(const sim::Description& description);
     /// Changes the parameters of the run between two steps, before steps that were asked for earlier and are still to
-    /// be taken; where can_change_live says no, starts anew.
-    void change(const sim::Description& description);
+    /// be taken (timeline::Player::change); where can_change_live says no, restarts. Returns a ticket: what was
+    /// published when it had been taken up shows the run as it is described then.
+    std::uint64_t change(const sim::Description& description);
+    /// Another timeline in place of the present one, paused at a moment of it.
+    void adopt(timeline::Timeline timeline, const timeline::Moment& at);
 
-    void play(bool on);
+    void play(bool on, bool backwards = false);
     /// Pauses and takes this many steps, or goes to the end of this many frames.
     void step(int substeps);
     /// The ticket is for who must not miss the frame: once it is done, what is published is the end of these frames.
     std::uint64_t step_frames(int frames);
+    // All that goes elsewhere in time pauses.
+    /// To the end of the frame before, or one step back.
+    void step_back(bool frame);
+    void jump_to_start();
+    void jump_to_end();
+    /// To a step of the line shown. Of several that are asked for before the first can be gone to, the last one counts.
+    void seek(std::uint64_t step);
+    /// Does something with the runs, in their own thread, which pauses first; what it throws becomes Published::error.
+    std::uint64_t with_player(std::function<void(timeline::Player&)> act);
+    /// Reads from the runs, in their own thread, which goes on afterwards as before.
+    void look_at(std::function<void(const timeline::Player&)> look);
+    /// Playing goes round in this range of frames of the line shown; none: to its end and on.
+    void set_loop(std::optional<timeline::FrameRange> loop);
+    void set_breakpoints(std::vector<timeline::Breakpoint> breakpoints);
+    void set_cache(const timeline::CacheOptions& options);
+    /// Whether what is published has the inside of the next step (Published::trace) when paused.
+    void watch_next_step(bool on);
+    /// The branch of which Published::ghost is; 0: none.
+    void show_ghost(timeline::BranchId branch);
+
     /// Simulated seconds per second that playing aims at; above 0.
     void set_speed(double speed);
     /// Whether snapshots have the stability margin (Snapshot::stability): while stepping the newest one, renewed a few
@@ -64,8 +89,7 @@ public:
     void finish();
 
 private:
-    struct Worker;
-    using Command = std::function<void(Worker&)>;
+    using Command = std::function<void(SimulationWorker&)>;
     std::uint64_t send(Command command); ///< the command's ticket
     void run();
 
