@@ -26,8 +26,8 @@ const std::vector<Layer>& layers() {
                            "fcntl.h", "spawn.h", "sys/",     "unistd.h"};
     static const std::vector<Layer> list{
         {"sim/", {"sim/"}, {"Eigen/", "hwy/"}},
-        {"scene/", {"scene/", "sim/"}, {"nlohmann/"}},
-        // With what POSIX has for writing a file whole and reading a part of it.
+        // With what POSIX has for writing a file whole and for reading a part of it.
+        {"scene/", {"scene/", "sim/"}, {"nlohmann/", "fcntl.h", "sys/", "unistd.h"}},
         {"timeline/", {"timeline/", "scene/", "sim/"}, {"lz4", "fcntl.h", "sys/", "unistd.h"}},
         {"experiments/", {"experiments/", "scene/", "sim/"}, {"hwy/"}},
         {"render/", {"render/", "sim/"}, {"glad/", "glm/", "stb/", "stb_"}},

@@ -7,6 +7,7 @@
 
 #include "scene/fields.h"
 #include "scene/io.h"
+#include "scene/whole_file.h"
 
 namespace clothlab::scene {
 namespace {
@@ -165,24 +166,13 @@ Scene load_scene(const std::filesystem::path& file) {
 }
 
 void write_text_file(const std::string& text, const std::filesystem::path& file) {
-    std::filesystem::path partial = file;
-    partial += ".part";
-    const auto fail = [&](const std::string& why) {
-        std::error_code ignored;
-        std::filesystem::remove(partial, ignored);
-        throw SceneError(file.string() + ": cannot be written: " + why);
-    };
-    {
-        std::ofstream out(partial, std::ios::binary | std::ios::trunc);
-        out << text;
-        out.flush();
-        if (!out)
-            fail(reason());
+    try {
+        WholeFile out(file);
+        out.write(text);
+        out.commit();
+    } catch (const FileError& e) {
+        throw SceneError(e.what());
     }
-    std::error_code error;
-    std::filesystem::rename(partial, file, error);
-    if (error)
-        fail(error.message());
 }
 
 void save_scene(const Scene& scene, const std::filesystem::path& file) {

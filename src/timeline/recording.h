@@ -33,7 +33,7 @@ struct Recording {
     std::string damage;
 };
 
-/// Told the share done, 0 to 1; saving ends with RecordingError("... was cancelled") when it returns false.
+/// Told the share done, 0 to 1; the work ends with RecordingError("... was cancelled") when it returns false.
 using Progress = std::function<bool(double)>;
 
 /// Saves a copy of a timeline, or of one line of it. The states of frames that are not in the cache are computed;
@@ -44,6 +44,6 @@ void save_recording(const Recording& recording, const std::filesystem::path& fil
 
 /// Reads a recording. States stay in the file until they are wanted: memory is a few dozen bytes per frame. Throws
 /// RecordingError when nothing of it can be used; otherwise see Recording::damage.
-Recording load_recording(const std::filesystem::path& file);
+Recording load_recording(const std::filesystem::path& file, const Progress& progress = {});
 
 } // namespace clothlab::timeline

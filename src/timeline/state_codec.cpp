@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "sim/saved_state.h"
-
 namespace clothlab::timeline {
 namespace {
 
@@ -172,16 +170,20 @@ std::vector<std::byte> compress_state(std::span<const std::byte> state) {
     return out;
 }
 
-std::vector<std::byte> expand_state(std::span<const std::byte> compressed) {
+sim::StateHeader compressed_header(std::span<const std::byte> compressed) {
     std::uint32_t magic = 0;
     if (compressed.size() < head_size)
         throw std::invalid_argument("too short to be a compressed state");
     std::memcpy(&magic, compressed.data(), sizeof magic);
     if (magic != codec_magic)
         throw std::invalid_argument("not a compressed state");
-    const std::byte* head = compressed.data() + sizeof magic;
+    return sim::read_state_header(compressed.subspan(sizeof magic));
+}
+
+std::vector<std::byte> expand_state(std::span<const std::byte> compressed) {
+    const sim::StateHeader header = compressed_header(compressed);
+    const std::byte* head = compressed.data() + sizeof codec_magic;
     const std::span<const std::byte> packed = compressed.subspan(head_size);
-    const sim::StateHeader header = sim::read_state_header({head, sizeof header});
     const std::size_t size = header.array_bytes();
     // LZ4 makes 255 bytes of one at most; a damaged header does not make us ask for more memory.
     if (size > LZ4_MAX_INPUT_SIZE || packed.size() > LZ4_MAX_INPUT_SIZE || size / 255 > packed.size())

@@ -1,9 +1,10 @@
 // States in the cache and in files: lossless, and smaller than they are in memory.
 //
-// A coordinate is predicted from its neighbours in the grid (left + above - upper left), a previous position or a
-// velocity from the one before it in the file; what is left over is small where a cloth is smooth. Floats are compared
-// as integers of the same order (M. Isenburg, P. Lindstrom, J. Snoeyink, "Lossless compression of predicted
-// floating-point geometry", 2005, sections 3 and 4), their bytes sorted by weight, and the result compressed with LZ4.
+// A position's coordinate is predicted from its neighbours in the grid (left + above - upper left), and so is a
+// velocity's; the position and the velocity of one step earlier from the newer ones. What is left over is small where a
+// cloth is smooth. Floats are compared as integers of the same order (M. Isenburg, P. Lindstrom, J. Snoeyink, "Lossless
+// compression of predicted floating-point geometry", 2005, sections 3 and 4), their bytes sorted by weight, and the
+// result compressed with LZ4.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "sim/saved_state.h"
+
 namespace clothlab::timeline {
 
 /// What Simulation::save_state gave, compressed. Throws std::invalid_argument for anything else.
@@ -19,6 +22,9 @@ std::vector<std::byte> compress_state(std::span<const std::byte> state);
 
 /// The very same bytes again. Throws std::invalid_argument for damaged ones.
 std::vector<std::byte> expand_state(std::span<const std::byte> compressed);
+
+/// What a compressed state is a state of, without expanding it. Throws std::invalid_argument as far as damage shows.
+sim::StateHeader compressed_header(std::span<const std::byte> compressed);
 
 /// A compressed state that many may hold. It lies in memory or in a file.
 class StoredState {
