@@ -306,7 +306,7 @@ void LabApp::carry_out_requests() {
 void LabApp::draw_viewport() {
     if (lab_.viewport_width < 1 || lab_.viewport_height < 1)
         return; // the panel has not been drawn yet
-    Shown now{lab_.snapshot, lab_.scene, lab_.viewport_width, lab_.viewport_height};
+    Shown now{lab_.snapshot, lab_.scene, lab_.viewport_width, lab_.viewport_height, trace_choice(lab_)};
     const bool other_shaders = shader_desk_.take_changed(), other_textures = textures_changed();
     if (now == shown_ && !other_shaders && !other_textures && lab_.viewport_texture != 0)
         return;
@@ -314,6 +314,7 @@ void LabApp::draw_viewport() {
     viewport_.resize(now.width, now.height);
     const double aspect = static_cast<double>(now.width) / now.height;
     render::Scene scene = to_render(lab_.scene, lab_.shaders, lab_.snapshot.get(), aspect);
+    trace_view_.show(now.inside, scene);
     try {
         draw_report_ = renderer_.draw(scene, viewport_);
         drawn_ = {scene.options.surface.shader, scene.right ? scene.right->shader : std::string()};

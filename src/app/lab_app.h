@@ -12,6 +12,7 @@
 #include "app/gui/imgui_layer.h"
 #include "app/gui/shader_desk.h"
 #include "app/pictures.h"
+#include "app/trace_view.h"
 #include "app/window.h"
 #include "render/renderer.h"
 #include "ui/lab.h"
@@ -98,9 +99,11 @@ private:
         std::shared_ptr<const sim::Snapshot> snapshot;
         scene::Scene scene;
         int width = 0, height = 0;
+        TraceChoice inside; ///< of a step
         bool operator==(const Shown&) const = default;
     };
     Shown shown_;
+    TraceView trace_view_;
     std::chrono::steady_clock::time_point next_look_at_textures_{};
     std::vector<std::string> texture_errors_; ///< that the user has been told of
     render::DrawReport draw_report_;

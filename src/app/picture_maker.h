@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "app/trace_view.h"
 #include "render/renderer.h"
 #include "scene/shader_parameters.h"
 
@@ -17,13 +18,14 @@ public:
     int width() const { return target_.width(); }
     int height() const { return target_.height(); }
 
-    /// Throws render::ShaderError as the renderer does.
+    /// With the inside of a step, if there is any to be seen. Throws render::ShaderError as the renderer does.
     render::Image draw(const scene::Scene& scene, const std::vector<scene::ShaderDeclaration>& shaders,
-                       const sim::Snapshot* snapshot);
+                       const sim::Snapshot* snapshot, const TraceChoice& inside = {});
 
 private:
     render::Renderer& renderer_;
     render::Target target_;
+    TraceView trace_view_;
     bool transparent_;
 };
 

@@ -164,7 +164,7 @@ void Pictures::take(const ui::TakePicture& wanted) {
         return;
     }
     try {
-        keep(maker(o.transparent).draw(lab_.scene, lab_.shaders, lab_.snapshot.get()), file);
+        keep(maker(o.transparent).draw(lab_.scene, lab_.shaders, lab_.snapshot.get(), trace_choice(lab_)), file);
     } catch (const std::exception& e) {
         say(true, e.what());
     }

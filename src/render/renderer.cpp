@@ -13,7 +13,6 @@
 #include "render/texture_library.h"
 
 namespace clothlab::render {
-
 namespace {
 
 /// The uniform block Frame of shaders/common/frame.glsl, in its std140 layout.
@@ -63,7 +62,7 @@ bool spheres_like_cloth(const Options& options, const Surface& surface) {
     return options.spheres_like_cloth && !surface.lines;
 }
 
-constexpr const char* always_needed[] = {"background", "sphere", "plane", "pins"};
+constexpr const char* always_needed[] = {"background", "sphere", "plane", "pins", "arrows"};
 
 } // namespace
 
@@ -74,6 +73,7 @@ struct Renderer::Parts {
     TextureLibrary textures;
     ClothMesh cloth;
     SortedTriangles sorted;
+    Arrows arrows;
     SphereMesh sphere, caster;                       ///< that is drawn, and that casts a shadow
     VertexArray no_vertices = VertexArray::create(); ///< for shaders that make their own
     Buffer frame = Buffer::create();
@@ -399,6 +399,7 @@ void Renderer::Parts::draw_part(const Scene& what, const Surface& surface, DrawR
         draw_cloth(what, surface, report);
     if (what.options.show_pins)
         draw_pins(what, report);
+    report.arrows = arrows.draw(what.arrows, what.marker, 1.4f * report.line_width, shaders);
 }
 
 DrawReport Renderer::draw(const Scene& what, Target& target) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "render/arrows.h"
 #include "render/offscreen.h"
 #include "render/options.h"
 #include "render/shader_files.h"
@@ -26,6 +27,8 @@ struct Scene {
     /// A split view: how everything right of the divider is drawn. The report tells of the left part.
     std::optional<Surface> right;
     float divider = 0.5f; ///< as a share of the picture's width
+    std::span<const Arrow> arrows;
+    std::optional<glm::vec3> marker; ///< a point to be marked, in m
 };
 
 /// Pixels from the left and the top, max included; empty when max is below min.
@@ -40,7 +43,7 @@ struct PixelBox {
 struct DrawReport {
     std::size_t cloth_triangles = 0;
     std::array<std::size_t, sim::spring_kinds> springs{}; ///< lines drawn, by SpringKind
-    std::size_t spheres = 0, planes = 0, pins = 0;
+    std::size_t spheres = 0, planes = 0, pins = 0, arrows = 0;
     int width = 0, height = 0;           ///< px
     PixelBox cloth_box;                  ///< around the points inside the view
     std::size_t points_in_view = 0;      ///< cloth points inside the view, hidden ones too

@@ -8,6 +8,7 @@
 
 #include "sim/integrators/integrator.h"
 #include "sim/saved_state.h"
+#include "sim/step_recorder.h"
 
 namespace clothlab::sim {
 namespace {
@@ -64,6 +65,17 @@ public:
         if (watched_ && substep_ == 0)
             monitor_.end_of_frame(model_, state_, frame_);
         return counts_;
+    }
+
+    StepTrace trace_step() const override {
+        StepTrace trace;
+        StepRecorder<Real> recorder(trace);
+        State<Real> state = state_;
+        Workspace<Real> work = make_workspace(model_, {.instructions = work_.instructions});
+        work.arrays = work_.arrays; // with the forces that the step would not compute again
+        work.force_of_step = work_.force_of_step;
+        sim::step(model_, state, work, &recorder);
+        return trace;
     }
 
     void watch(bool on) override {

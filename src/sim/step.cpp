@@ -9,6 +9,7 @@
 #include "sim/integrators/integrator.h"
 #include "sim/iterated_limit.h"
 #include "sim/stage_timer.h"
+#include "sim/step_recorder.h"
 #include "sim/stretch_limit.h"
 
 namespace clothlab::sim {
@@ -49,11 +50,26 @@ Workspace<Real> make_workspace(const Model<Real>& model, const Execution& execut
 
 namespace {
 
+/// Whether a stage after the method's can move points.
+template <class Real>
+bool has_stage(const Model<Real>& model, Stage stage) {
+    switch (stage) {
+    case Stage::self_collision:
+        return model.rules.self_collision != SelfCollisionRule::none && model.thickness > 0;
+    case Stage::colliders:
+        return !model.colliders.empty();
+    case Stage::limit:
+        return model.rules.limit != LimitRule::off;
+    default:
+        return false;
+    }
+}
+
 /// Whether anything but the method can move points in a step.
 template <class Real>
 bool has_stages(const Model<Real>& model) {
-    return (model.rules.self_collision != SelfCollisionRule::none && model.thickness > 0) || !model.colliders.empty() ||
-           model.rules.limit != LimitRule::off;
+    return has_stage(model, Stage::self_collision) || has_stage(model, Stage::colliders) ||
+           has_stage(model, Stage::limit);
 }
 
 /// Gives velocities what the stages did to positions since `from`, as M. Mueller et al. do it ("Position based
@@ -72,17 +88,29 @@ void add_displacements(const Model<Real>& model, State<Real>& state, const Vec3A
 } // namespace
 
 template <class Real>
-StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
+StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& work, StepRecorder<Real>* recorder) {
     StepCounts counts;
+    if (recorder)
+        recorder->begin(model, state, work);
     work.choice.begin_step();
     integrate(model, state, work, counts);
     const bool keep_velocity = state.velocity.size() != 0 && has_stages(model);
     if (keep_velocity)
         work.before_stages = state.position;
+    const auto record = [&](Stage stage) {
+        if (!recorder)
+            return;
+        State<Real> ended = state;
+        if (keep_velocity)
+            add_displacements(model, ended, work.before_stages);
+        recorder->after(stage, stage == Stage::integrate || has_stage(model, stage), model, ended);
+    };
+    record(Stage::integrate);
     if (model.rules.self_collision != SelfCollisionRule::none) {
         const StageTimer timer(work, Stage::self_collision);
         counts.self_contacts = resolve_self_collision(model, state, work);
     }
+    record(Stage::self_collision);
     if (!model.colliders.empty()) {
         const StageTimer timer(work, Stage::colliders);
         const ColliderContacts contacts = resolve_colliders(model, state, work);
@@ -90,11 +118,13 @@ StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& w
         counts.sphere_contacts = contacts.spheres;
         counts.plane_contacts = contacts.planes;
     }
+    record(Stage::colliders);
     if (model.rules.limit != LimitRule::off) {
         const StageTimer timer(work, Stage::limit);
         counts.shortened_springs = model.rules.limit == LimitRule::iterated ? limit_stretch_iterated(model, state)
                                                                             : limit_stretch(model, state, work);
     }
+    record(Stage::limit);
     const bool moved = counts.self_contacts + counts.contacts + counts.shortened_springs != 0;
     if (moved)
         work.force_of_step = 0;
@@ -103,6 +133,8 @@ StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& w
     work.choice.end_step();
     state.time += model.dt;
     state.steps += 1;
+    if (recorder)
+        recorder->end(counts);
     return counts;
 }
 
@@ -110,7 +142,7 @@ StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& w
     template State<Real> initial_state<Real>(const Description&);                                                      \
     template void begin<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);                                     \
     template Workspace<Real> make_workspace<Real>(const Model<Real>&, const Execution&);                               \
-    template StepCounts step<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);
+    template StepCounts step<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&, StepRecorder<Real>*);
 CLOTHLAB_DEFINE(float)
 CLOTHLAB_DEFINE(double)
 #undef CLOTHLAB_DEFINE

@@ -29,15 +29,19 @@ void begin(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);
 template <class Real>
 Workspace<Real> make_workspace(const Model<Real>& model, const Execution& execution = {});
 
-/// Advances the state by model.dt.
 template <class Real>
-StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& work);
+class StepRecorder;
+
+/// Advances the state by model.dt. A recorder is shown the state between the stages.
+template <class Real>
+StepCounts step(const Model<Real>& model, State<Real>& state, Workspace<Real>& work,
+                StepRecorder<Real>* recorder = nullptr);
 
 #define CLOTHLAB_DECLARE(Real)                                                                                         \
     extern template State<Real> initial_state<Real>(const Description&);                                               \
     extern template void begin<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);                              \
     extern template Workspace<Real> make_workspace<Real>(const Model<Real>&, const Execution&);                        \
-    extern template StepCounts step<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&);
+    extern template StepCounts step<Real>(const Model<Real>&, State<Real>&, Workspace<Real>&, StepRecorder<Real>*);
 CLOTHLAB_DECLARE(float)
 CLOTHLAB_DECLARE(double)
 #undef CLOTHLAB_DECLARE

@@ -8,6 +8,7 @@
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/shader_editors.h"
+#include "ui/step_panel.h"
 
 namespace clothlab::ui {
 namespace {
@@ -119,6 +120,7 @@ void draw(Lab& lab) {
     follow_shader_files(lab);
     for (const Panel& panel : panels)
         draw_panel(lab, panel);
+    follow_step_panel(lab);
     draw_output_window(lab);
     pass_on_shader_edits(lab);
     draw_quit_question(lab);

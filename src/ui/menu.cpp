@@ -165,6 +165,8 @@ const std::vector<Shortcut>& shortcuts() {
         {"Space, P", "play or pause"},
         {"N", "one frame further"},
         {"Shift+N", "one substep further"},
+        {"Ctrl+Left, Ctrl+Right", "the stages of a step, while Inside a step is seen"},
+        {"Shift+click", "pick a point, while Inside a step is seen"},
         {"R", "restart"},
         {"W", "wireframe or shaded"},
         {"F, double click", "show the whole scene"},

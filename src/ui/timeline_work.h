@@ -109,6 +109,8 @@ struct TimelineWork {
     int stage = -1;                      ///< of sim::Stage; -1: the state before the step
     std::optional<std::uint32_t> picked; ///< the point whose arrow alone is drawn; none: all points'
     float arrow_scale = 1;               ///< drawn length / real length of displacements
+    bool fit_arrows = true;              ///< arrow_scale follows from the stage's longest arrow
+    bool inspecting = false;             ///< InspectStep was asked for last
 
     struct Job {
         std::string what; ///< "Saving fold.clothrec"

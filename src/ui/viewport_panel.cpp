@@ -6,6 +6,7 @@
 #include "ui/icons.h"
 #include "ui/legend.h"
 #include "ui/panels.h"
+#include "ui/step_panel.h"
 #include "ui/theme.h"
 #include "ui/viewport_handles.h"
 #include "ui/widgets.h"
@@ -69,6 +70,7 @@ void draw_viewport(Lab& lab) {
                                ImGuiButtonFlags_MouseButtonMiddle);
     ImGui::SetItemKeyOwner(ImGuiKey_MouseWheelY);
     move_camera(lab, std::min(at_least_one.x, at_least_one.y));
+    draw_step_in_viewport(lab, corner, at_least_one);
     draw_viewport_handles(lab, corner, at_least_one);
     draw_legend(lab, corner, size);
     const float bar = draw_camera_bar(lab, corner, size.x);
