@@ -9,6 +9,7 @@
 #include "ui/panels.h"
 #include "ui/shader_editors.h"
 #include "ui/step_panel.h"
+#include "ui/timeline_parts.h"
 
 namespace clothlab::ui {
 namespace {
@@ -50,9 +51,10 @@ void draw_panel(Lab& lab, const Panel& panel) {
         ImGui::PopStyleVar();
     if (visible) {
         const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-        report = {panel.name, true, at.x, at.y, size.x, size.y};
+        report = {panel.name, true, false, at.x, at.y, size.x, size.y};
         panel.draw(lab);
     }
+    report.behind = !visible;
     ImGui::End();
 }
 
@@ -122,6 +124,7 @@ void draw(Lab& lab) {
         draw_panel(lab, panel);
     follow_step_panel(lab);
     draw_output_window(lab);
+    draw_job(lab);
     pass_on_shader_edits(lab);
     draw_quit_question(lab);
 }

@@ -17,6 +17,7 @@
 #include "sim/snapshot.h"
 #include "ui/output.h"
 #include "ui/shader_work.h"
+#include "ui/timeline_view.h"
 #include "ui/timeline_work.h"
 
 namespace clothlab::ui {
@@ -92,7 +93,8 @@ struct CameraFlight {
 /// What a panel drew in the last frame, for tests and for the headless check.
 struct PanelReport {
     std::string name;
-    bool drawn = false; ///< not hidden behind another tab, not closed
+    bool drawn = false;  ///< not hidden behind another tab, not closed
+    bool behind = false; ///< open, but hidden behind another tab
     float x = 0, y = 0, width = 0, height = 0;
 };
 
@@ -148,6 +150,7 @@ struct Lab {
     std::vector<Request> requests;
     ShaderWork shader_work;
     TimelineWork timeline;
+    TimelineView timeline_view;
     std::array<bool, panel_count> open = open_at_start;
     std::array<PanelReport, panel_count> report{};
     bool status_bar_drawn = false;

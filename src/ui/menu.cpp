@@ -7,6 +7,7 @@
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
+#include "ui/timeline_parts.h"
 #include "ui/widgets.h"
 
 namespace clothlab::ui {
@@ -121,6 +122,16 @@ void file_menu(Lab& lab, Windows& windows) {
     if (ImGui::MenuItem(ICON_FA_FILE_EXPORT "  Save as ...", "Ctrl+Shift+S"))
         windows.save = true;
     ImGui::Separator();
+    TimelineView::Files& files = lab.timeline_view.files;
+    if (ImGui::MenuItem(ICON_FA_CIRCLE_DOT "  Save recording ...", nullptr, false, lab.timeline.overview != nullptr))
+        files.save = true;
+    tooltip("The whole timeline with its branches, bookmarks and states, to look at without computing it again");
+    if (ImGui::MenuItem(ICON_FA_FOLDER_OPEN "  Open recording ..."))
+        files.open = true;
+    if (ImGui::MenuItem(ICON_FA_CUBES "  Export meshes ...", nullptr, false, lab.timeline.overview != nullptr))
+        files.exporting = true;
+    tooltip("A mesh file for each frame of a range");
+    ImGui::Separator();
     if (ImGui::MenuItem(ICON_FA_CAMERA "  Save a picture", "F12"))
         lab.ask(TakePicture{});
     tooltip("Of the viewport, or as the Output window is set, under the next free name");
@@ -140,34 +151,42 @@ void view_menu(Lab& lab) {
         lab.ask(ResetLayout{});
 }
 
-bool key(ImGuiKeyChord chord, ImGuiInputFlags flags = 0) {
-    // ImGui holds letters back from shortcuts for its own text fields only, not for the text editor.
-    if (ImGui::GetIO().WantTextInput && (chord & ImGuiMod_Ctrl) == 0 && (chord & ~ImGuiMod_Mask_) < ImGuiKey_F1)
-        return false;
-    return ImGui::Shortcut(chord, ImGuiInputFlags_RouteGlobal | flags);
-}
-
 void window_keys(Lab& lab, Windows& windows) {
-    if (key(ImGuiMod_Ctrl | ImGuiKey_O))
+    if (window_key(ImGuiMod_Ctrl | ImGuiKey_O))
         windows.open = true;
-    if (key(ImGuiMod_Ctrl | ImGuiKey_S))
+    if (window_key(ImGuiMod_Ctrl | ImGuiKey_S))
         save(lab, windows);
-    if (key(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S))
+    if (window_key(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S))
         windows.save = true;
-    if (key(ImGuiKey_F1))
+    if (window_key(ImGuiKey_F1))
         windows.help = true;
 }
 
 } // namespace
 
+bool window_key(ImGuiKeyChord chord, ImGuiInputFlags flags) {
+    // ImGui holds letters back from shortcuts for its own text fields only, not for the text editor.
+    const ImGuiKeyChord k = chord & ~ImGuiMod_Mask_;
+    const bool function_key = k >= ImGuiKey_F1 && k <= ImGuiKey_F24;
+    if (ImGui::GetIO().WantTextInput && (chord & ImGuiMod_Ctrl) == 0 && !function_key)
+        return false;
+    return ImGui::Shortcut(chord, ImGuiInputFlags_RouteGlobal | flags);
+}
+
 const std::vector<Shortcut>& shortcuts() {
     static const std::vector<Shortcut> list{
         {"Space, P", "play or pause"},
-        {"N", "one frame further"},
-        {"Shift+N", "one substep further"},
+        {"B", "play backwards or pause"},
+        {"Right or N, Left", "one frame further, one frame back"},
+        {"Shift+Right or Shift+N, Shift+Left", "one substep further, one substep back"},
+        {"Home, End", "to the start of the run, to the last moment that was computed"},
+        {"L, [ and ]", "loop on or off, its first and its last frame at the playhead"},
+        {"-, =", "slower, faster"},
+        {"M", "bookmark this moment"},
+        {", and .", "previous and next bookmark or event"},
         {"Ctrl+Left, Ctrl+Right", "the stages of a step, while Inside a step is seen"},
         {"Shift+click", "pick a point, while Inside a step is seen"},
-        {"R", "restart"},
+        {"R", "restart: a new run with the present parameters"},
         {"W", "wireframe or shaded"},
         {"F, double click", "show the whole scene"},
         {"Shift+F", "show the cloth as it is now"},
@@ -193,28 +212,21 @@ const std::vector<Shortcut>& shortcuts() {
 void handle_keys(Lab& lab) {
     if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
         return;
-    if (key(ImGuiKey_Space) || key(ImGuiKey_P))
-        lab.ask(Play{!lab.playing});
-    if (key(ImGuiMod_Shift | ImGuiKey_N, ImGuiInputFlags_Repeat))
-        lab.ask(StepSubstep{});
-    if (key(ImGuiKey_N, ImGuiInputFlags_Repeat))
-        lab.ask(StepFrame{});
-    if (key(ImGuiKey_R))
-        lab.ask(Restart{});
-    if (key(ImGuiKey_W)) {
+    timeline_keys(lab);
+    if (window_key(ImGuiKey_W)) {
         std::string& shader = lab.scene.look.shader;
         if (shader != "wireframe")
             lab.shader_before = shader;
         shader = shader == "wireframe" ? lab.shader_before : "wireframe";
     }
     camera_keys(lab);
-    if (key(ImGuiMod_Ctrl | ImGuiKey_Z, ImGuiInputFlags_Repeat))
+    if (window_key(ImGuiMod_Ctrl | ImGuiKey_Z, ImGuiInputFlags_Repeat))
         lab.ask(Undo{});
-    if (key(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Z, ImGuiInputFlags_Repeat) ||
-        key(ImGuiMod_Ctrl | ImGuiKey_Y, ImGuiInputFlags_Repeat))
+    if (window_key(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Z, ImGuiInputFlags_Repeat) ||
+        window_key(ImGuiMod_Ctrl | ImGuiKey_Y, ImGuiInputFlags_Repeat))
         lab.ask(Redo{});
     output_keys(lab);
-    if (key(ImGuiMod_Ctrl | ImGuiKey_Q))
+    if (window_key(ImGuiMod_Ctrl | ImGuiKey_Q))
         lab.ask(Quit{});
 }
 
@@ -245,6 +257,7 @@ void draw_menu(Lab& lab) {
         ImGui::EndMainMenuBar();
     }
     draw_path_window(lab, windows.open, windows.save);
+    draw_recording_windows(lab);
     draw_help_window(windows.help);
 }
 

@@ -17,6 +17,8 @@ void draw_status_bar(Lab& lab);
 void draw_shader_faults(Lab& lab, ImVec2 corner, ImVec2 size);
 /// Asks what is to become of unsaved shaders when the lab is to be closed.
 void draw_quit_question(Lab& lab);
+/// Whether a key of the whole window is pressed, and nobody is typing.
+bool window_key(ImGuiKeyChord chord, ImGuiInputFlags flags = 0);
 /// Keys of the whole window: see shortcuts().
 void handle_keys(Lab& lab);
 

@@ -5,6 +5,7 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 #include <imgui_internal.h> // ClearIniSettings
+#include <implot.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,7 @@ ImGuiLayer::ImGuiLayer(Window& window, fs::path layout, fs::path default_layout,
     : window_(window), layout_(std::move(layout)), default_layout_(std::move(default_layout)), forced_scale_(scale) {
     IMGUI_CHECKVERSION();
     context_ = ImGui::CreateContext();
+    plots_ = ImPlot::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr; // saved below, so that a folder that cannot be written does no harm
     io.ConfigFlags |= ImGuiConfigFlags_DockingEnable | ImGuiConfigFlags_NavEnableKeyboard;
@@ -54,6 +56,7 @@ ImGuiLayer::ImGuiLayer(Window& window, fs::path layout, fs::path default_layout,
     try {
         ui::load_fonts(data_path("fonts"));
     } catch (...) {
+        ImPlot::DestroyContext(plots_);
         ImGui::DestroyContext(context_);
         throw;
     }
@@ -70,6 +73,7 @@ ImGuiLayer::~ImGuiLayer() {
     save_layout_if_changed();
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplGlfw_Shutdown();
+    ImPlot::DestroyContext(plots_);
     ImGui::DestroyContext(context_);
 }
 

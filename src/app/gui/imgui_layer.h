@@ -6,6 +6,7 @@
 #include "app/window.h"
 
 struct ImGuiContext;
+struct ImPlotContext;
 
 namespace clothlab::app {
 
@@ -33,6 +34,7 @@ private:
     Window& window_;
     std::filesystem::path layout_, default_layout_;
     ImGuiContext* context_ = nullptr;
+    ImPlotContext* plots_ = nullptr;
     float forced_scale_, scale_ = 0;
     bool default_layout_wanted_ = false;
 };
