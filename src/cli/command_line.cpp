@@ -29,7 +29,7 @@ void add_scene(CLI::App& app, SceneArguments& arguments, bool required) {
 
 void add_run(CLI::App& app, RunArguments& a, int& status) {
     auto* run = app.add_subcommand("run", "Simulate a scene without a picture");
-    add_scene(*run, a.scene, true);
+    add_scene(*run, a.scene, false);
     auto* frames =
         run->add_option("--frames", a.frames, "Frames to simulate (default: 90)")->check(CLI::NonNegativeNumber);
     run->add_option("--seconds", a.seconds, "Simulated seconds instead, rounded up to a whole frame")
@@ -50,10 +50,28 @@ void add_run(CLI::App& app, RunArguments& a, int& status) {
     run->add_option("--every", a.every, "Write only every Nth frame to the CSV file")->check(CLI::PositiveNumber);
     run->add_option("--obj", a.obj, "Write the final mesh to this OBJ file");
     run->add_option("--state", a.state, "Write the final state to this file, to be resumed");
-    run->add_option("--resume", a.resume, "Go on from the state in this file, bit for bit");
+    run->add_option("--record", a.record, "Write every frame to this recording (.clothrec), to be scrubbed in the lab");
+    auto* resume = run->add_option("--resume", a.resume,
+                                   "Go on from the state in this file, or from a recording, bit for bit. Without a "
+                                   "scene, with a recording's own parameters");
+    run->add_option("--at", a.at, "The recording's frame to go on from (default: where its playhead is)")
+        ->check(CLI::NonNegativeNumber)
+        ->needs(resume);
     run->add_flag("--hash", a.hash, "Print only the 64-bit hash of the final state");
     run->add_flag("--json", a.json, "Print the results as one JSON object");
     run->final_callback([&a, &status] { status = cli::run(a); });
+}
+
+void add_export(CLI::App& app, ExportArguments& a, int& status) {
+    auto* meshes = app.add_subcommand("export", "Write the frames of a recording as meshes, a file each");
+    meshes->add_option("recording", a.recording, "Recording (.clothrec)")->required();
+    meshes->add_option("-o,--output", a.folder, "The folder to write into, made where it is missing")->required();
+    meshes->add_option("--frames", a.frames, "FIRST:LAST, both included; either may be left out (default: all)");
+    meshes->add_option("--every", a.every, "Write only every Nth frame")->check(CLI::PositiveNumber);
+    meshes->add_option("--format", a.format, "obj (default) or ply, binary and with normals")
+        ->check(CLI::IsMember({"obj", "ply"}));
+    meshes->add_option("--branch", a.branch, "The branch's name (default: the one that was shown)");
+    meshes->final_callback([&a, &status] { status = cli::export_meshes(a); });
 }
 
 /// Of --size WIDTHxHEIGHT.
@@ -155,6 +173,11 @@ scene::Scene SceneArguments::load() const {
         throw scene::SceneError(scene +
                                 ": there is no such file, and no scene of that name; see `clothlab list scenes`");
     scene::Scene result = scene::load_scene(file);
+    apply(result, scene);
+    return result;
+}
+
+void SceneArguments::apply(scene::Scene& result, const std::string& source) const {
     for (const std::string& setting : settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos || equals == 0)
@@ -162,8 +185,7 @@ scene::Scene SceneArguments::load() const {
         scene::set_parameter(result, std::string_view(setting).substr(0, equals),
                              std::string_view(setting).substr(equals + 1));
     }
-    scene::check(result, scene);
-    return result;
+    scene::check(result, source);
 }
 
 int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
@@ -180,6 +202,8 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
 
     RunArguments run;
     add_run(app, run, status);
+    ExportArguments meshes;
+    add_export(app, meshes, status);
     RenderArguments render;
     std::string size = "1280x720";
     add_render(app, render, size, gui, status);
@@ -194,8 +218,9 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
     add_bench(app, bench, status);
 
     std::vector<std::string> files;
-    auto* validate_command = app.add_subcommand("validate", "Check scene files and say what is wrong with them");
-    validate_command->add_option("files", files, "Scene files")->required();
+    auto* validate_command =
+        app.add_subcommand("validate", "Check scene files and recordings and say what is wrong with them");
+    validate_command->add_option("files", files, "Scene files and recordings")->required();
     validate_command->final_callback([&] { status = validate(files); });
 
     std::string what;

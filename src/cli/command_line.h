@@ -17,6 +17,8 @@ struct SceneArguments {
     std::vector<std::string> settings; ///< KEY=VALUE
     /// Reads the scene and applies the settings. Throws scene::SceneError.
     scene::Scene load() const;
+    /// Applies the settings to a scene of another origin, which `source` names. Throws scene::SceneError.
+    void apply(scene::Scene& scene, const std::string& source) const;
 };
 
 struct LabArguments {
@@ -45,9 +47,19 @@ struct RunArguments {
     std::optional<double> seconds;
     int threads = 1;
     std::string instructions = "auto"; ///< name of an instruction set
-    std::string csv, obj, state, resume;
+    std::string csv, obj, state, record;
+    std::string resume;    ///< a state or a recording
+    std::optional<int> at; ///< the recording's frame
     int every = 1;
     bool hash = false, json = false;
+};
+
+struct ExportArguments {
+    std::string recording, folder;
+    std::string frames; ///< FIRST:LAST, either left out or both; empty: all
+    int every = 1;
+    std::string format = "obj";
+    std::string branch; ///< its name; empty: the one that was shown
 };
 
 struct BenchArguments {
@@ -84,6 +96,7 @@ struct GuiCommands {
 int run_program(int argc, const char* const* argv, const GuiCommands& gui);
 
 int run(const RunArguments& arguments);
+int export_meshes(const ExportArguments& arguments);
 int bench(const BenchArguments& arguments);
 int validate(const std::vector<std::string>& files);
 int list(const std::string& what, bool json, const GuiCommands& gui);

@@ -1,7 +1,6 @@
 // `clothlab run`: a scene without a picture, and its numbers.
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -14,9 +13,14 @@
 
 #include "cli/command_line.h"
 #include "scene/io.h"
+#include "scene/number_text.h"
+#include "scene/whole_file.h"
 #include "sim/integrators/integrator.h"
 #include "sim/intersections.h"
 #include "sim/simulation.h"
+#include "timeline/mesh_sequence.h"
+#include "timeline/reader.h"
+#include "timeline/run_recorder.h"
 
 namespace clothlab::cli {
 namespace {
@@ -48,21 +52,13 @@ private:
     std::ofstream file_;
 };
 
-/// Appends the fewest digits that read back as the same bits, in the precision of the run.
-void append(std::string& text, double value, bool single) {
-    char digits[32];
-    const auto result = single ? std::to_chars(digits, digits + sizeof digits, static_cast<float>(value))
-                               : std::to_chars(digits, digits + sizeof digits, value);
-    text.append(digits, result.ptr);
-}
-
 /// Appends a point and the end of its line.
 void append(std::string& text, const sim::Vec3& p, char separator, bool single) {
-    append(text, p.x, single);
+    scene::append_number(text, p.x, single);
     text += separator;
-    append(text, p.y, single);
+    scene::append_number(text, p.y, single);
     text += separator;
-    append(text, p.z, single);
+    scene::append_number(text, p.z, single);
     text += '\n';
 }
 
@@ -77,49 +73,86 @@ void write_csv_frame(Output& csv, const sim::Simulation& simulation) {
     csv.write(text);
 }
 
-void write_obj(const std::string& file, const sim::Simulation& simulation, const std::string& title) {
-    const sim::Cloth& cloth = simulation.description().cloth;
-    const int columns = cloth.num_width_points, rows = cloth.num_height_points;
-    const bool single = simulation.description().stepping.precision == sim::Precision::single_precision;
-    std::string text = "# clothlab: " + title + "\no cloth\n";
-    for (std::size_t i = 0; i < simulation.points(); ++i) {
-        const sim::Vec3 p = simulation.position(i);
-        text += "v ";
-        append(text, p, ' ', single);
+/// "-" is standard output.
+void write_whole(const std::string& name, std::string_view bytes) {
+    if (name == "-") {
+        std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        return;
     }
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) {
-            text += "vt ";
-            append(text, static_cast<double>(column) / (columns - 1), true);
-            text += " ";
-            append(text, static_cast<double>(row) / (rows - 1), true);
-            text += "\n";
-        }
-    sim::for_each_triangle(columns, rows, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        text += "f";
-        for (const std::uint32_t corner : {a, b, c}) {
-            const std::string index = std::to_string(corner + 1);
-            text += " " + index + "/" + index;
-        }
-        text += "\n";
-    });
-    Output out(file);
-    out.write(text);
-    out.close();
+    scene::WholeFile file(name);
+    file.write(bytes);
+    file.commit();
 }
 
-void write_state(const std::string& file, const sim::Simulation& simulation) {
-    const std::vector<std::byte> bytes = simulation.save_state();
-    Output out(file);
-    out.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    out.close();
-}
+/// What a run begins with.
+struct Start {
+    scene::Scene scene;
+    std::string source;           ///< the scene's, for people
+    std::vector<std::byte> state; ///< empty: the scene's own start
+};
 
-void resume(const std::string& file, sim::Simulation& simulation) {
-    constexpr std::uintmax_t max_size = std::uintmax_t{1} << 30; // of the largest cloth in double precision: 192 MiB
-    const std::string text = scene::read_text_file(file, max_size);
+timeline::Recording load_recording(const std::string& file) {
     try {
-        simulation.load_state(std::as_bytes(std::span(text)));
+        timeline::Recording recording = timeline::load_recording(file);
+        if (!recording.damage.empty())
+            std::cerr << "clothlab: " << recording.damage << "\n";
+        return recording;
+    } catch (const timeline::RecordingError& e) {
+        throw scene::SceneError(e.what());
+    }
+}
+
+/// The moment at a frame's end on the line that was shown.
+timeline::Moment moment_at(const timeline::Recording& recording, int frame, const std::string& file) {
+    const timeline::BranchId line = recording.at.branch;
+    const auto number = static_cast<std::uint64_t>(frame);
+    const timeline::Moment moment{line, recording.timeline.step_of_frame(line, number)};
+    if (!recording.timeline.reachable(moment) || recording.timeline.frame_time(moment).frame != number)
+        throw scene::SceneError("--at " + std::to_string(frame) + ": " + file + " has no such frame");
+    return moment;
+}
+
+Start resumed(const RunArguments& arguments) {
+    Start start;
+    timeline::Recording recording = load_recording(arguments.resume);
+    if (arguments.at)
+        recording.at = moment_at(recording, *arguments.at, arguments.resume);
+    timeline::Reader reader;
+    reader.seek(recording.timeline, recording.at);
+    start.state = reader.simulation().save_state();
+    if (!arguments.scene.scene.empty()) {
+        start.scene = arguments.scene.load();
+        start.source = arguments.scene.scene;
+        return start;
+    }
+    start.scene = std::move(recording.scene);
+    start.scene.simulation = *reader.description();
+    start.source = arguments.resume;
+    arguments.scene.apply(start.scene, start.source);
+    return start;
+}
+
+Start start_of(const RunArguments& arguments) {
+    if (!arguments.resume.empty() && timeline::is_recording(arguments.resume))
+        return resumed(arguments);
+    if (arguments.at)
+        throw scene::SceneError("--at: " + arguments.resume + " is not a recording");
+    if (arguments.scene.scene.empty())
+        throw scene::SceneError("name a scene, or a recording to go on from with --resume");
+    Start start{arguments.scene.load(), arguments.scene.scene, {}};
+    if (!arguments.resume.empty()) {
+        constexpr std::uintmax_t max_size = std::uintmax_t{1}
+                                            << 30; // of the largest cloth in double precision: 192 MiB
+        const std::string text = scene::read_text_file(arguments.resume, max_size);
+        const auto bytes = std::as_bytes(std::span(text));
+        start.state.assign(bytes.begin(), bytes.end());
+    }
+    return start;
+}
+
+void load_state(const Start& start, const std::string& file, sim::Simulation& simulation) {
+    try {
+        simulation.load_state(start.state);
     } catch (const std::invalid_argument& e) {
         throw scene::SceneError(file + ": " + e.what());
     }
@@ -170,8 +203,8 @@ Json stability(const sim::StabilityMargin& margin) {
             {"substeps_min", number(margin.substeps_min)}};
 }
 
-Json results(const RunArguments& arguments, const scene::Scene& scene, const sim::Simulation& simulation,
-             std::uint64_t frames, std::uint64_t steps, double wall_s) {
+Json results(const Start& start, const sim::Simulation& simulation, std::uint64_t frames, std::uint64_t steps,
+             double wall_s) {
     const sim::Stepping& stepping = simulation.description().stepping;
     sim::Snapshot snapshot;
     simulation.capture(snapshot);
@@ -184,8 +217,8 @@ Json results(const RunArguments& arguments, const scene::Scene& scene, const sim
     for (std::size_t i = 0; i < sim::stage_names.size(); ++i)
         stages[sim::stage_names[i]] = simulation.stage_seconds()[i];
     const bool single = stepping.precision == sim::Precision::single_precision;
-    return {{"scene", arguments.scene.scene},
-            {"name", scene.name},
+    return {{"scene", start.source},
+            {"name", start.scene.name},
             {"integrator", sim::integrators()[static_cast<std::size_t>(stepping.integrator)].name},
             {"precision", single ? "single" : "double"},
             {"instructions", instruction_name(simulation.instructions())},
@@ -227,48 +260,59 @@ void print_table(const Json& json, const std::string& prefix = "") {
 int run(const RunArguments& arguments) {
     if (arguments.csv == "-" && (arguments.json || arguments.hash))
         throw scene::SceneError("--csv -: standard output can hold the rows or --json or --hash, not both");
-    const scene::Scene scene = arguments.scene.load();
-    const std::uint64_t frames = frames_to_run(arguments, scene.simulation);
-    const auto simulation = sim::Simulation::create(scene.simulation, execution(arguments));
-    if (!arguments.resume.empty())
-        resume(arguments.resume, *simulation);
+    const Start start = start_of(arguments);
+    const std::uint64_t frames = frames_to_run(arguments, start.scene.simulation);
+    const bool resumes = !arguments.resume.empty();
+    std::unique_ptr<sim::Simulation> own = sim::Simulation::create(start.scene.simulation, execution(arguments));
+    if (resumes)
+        load_state(start, arguments.resume, *own);
     // Before the work, not after it: that an output cannot be written.
     for (const std::string& file : {arguments.obj, arguments.state})
-        if (!file.empty())
-            Output(file, std::ios::app).close();
-    simulation->time_stages(true);
-    simulation->watch(true);
+        if (!file.empty() && file != "-")
+            scene::WholeFile{file};
+    own->time_stages(true);
+    own->watch(true);
+    std::optional<timeline::RunRecorder> recorder;
+    if (!arguments.record.empty()) {
+        recorder.emplace(arguments.record, start.scene, execution(arguments), resumes ? &start.state : nullptr);
+        own.reset();
+    }
+    const sim::Simulation& simulation = recorder ? recorder->simulation() : *own;
     std::optional<Output> csv;
     if (!arguments.csv.empty()) {
         csv.emplace(arguments.csv);
         csv->write("frame,index,x,y,z\n");
-        write_csv_frame(*csv, *simulation);
+        write_csv_frame(*csv, simulation);
     }
 
     using Clock = std::chrono::steady_clock;
     double wall_s = 0;
-    const std::uint64_t first_step = simulation->steps();
+    const std::uint64_t first_step = simulation.steps();
     for (std::uint64_t done = 1; done <= frames; ++done) {
-        const auto start = Clock::now();
-        simulation->step_frame();
-        wall_s += std::chrono::duration<double>(Clock::now() - start).count();
+        const auto begin = Clock::now();
+        recorder ? recorder->step_frame() : own->step_frame();
+        wall_s += std::chrono::duration<double>(Clock::now() - begin).count();
         if (csv && done % static_cast<std::uint64_t>(arguments.every) == 0)
-            write_csv_frame(*csv, *simulation);
+            write_csv_frame(*csv, simulation);
     }
     if (csv)
         csv->close();
     if (!arguments.obj.empty())
-        write_obj(arguments.obj, *simulation, scene.name);
-    if (!arguments.state.empty())
-        write_state(arguments.state, *simulation);
+        write_whole(arguments.obj, mesh_text(simulation, timeline::MeshFormat::obj, start.scene.name));
+    if (!arguments.state.empty()) {
+        const std::vector<std::byte> state = simulation.save_state();
+        write_whole(arguments.state, {reinterpret_cast<const char*>(state.data()), state.size()});
+    }
+    if (recorder)
+        recorder->finish();
 
     if (arguments.hash && !arguments.json) {
-        std::cout << hex(simulation->hash()) << "\n";
+        std::cout << hex(simulation.hash()) << "\n";
         return 0;
     }
     if (arguments.csv == "-")
         return 0; // the table would end up among the rows
-    const Json json = results(arguments, scene, *simulation, frames, simulation->steps() - first_step, wall_s);
+    const Json json = results(start, simulation, frames, simulation.steps() - first_step, wall_s);
     if (arguments.json)
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n"; // file names need not be UTF-8
     else

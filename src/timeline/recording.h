@@ -42,6 +42,9 @@ using Progress = std::function<bool(double)>;
 void save_recording(const Recording& recording, const std::filesystem::path& file, const sim::Execution& execution = {},
                     const Progress& progress = {});
 
+/// Whether a file begins as recordings of any version do.
+bool is_recording(const std::filesystem::path& file);
+
 /// Reads a recording. States stay in the file until they are wanted: memory is a few dozen bytes per frame. Throws
 /// RecordingError when nothing of it can be used; otherwise see Recording::damage.
 Recording load_recording(const std::filesystem::path& file, const Progress& progress = {});

@@ -354,6 +354,15 @@ private:
 
 } // namespace
 
+bool is_recording(const std::filesystem::path& file) {
+    try {
+        const std::vector<std::byte> begin = SharedFile(file).read(0, sizeof recording_magic);
+        return begin.size() == sizeof recording_magic && Unpacker(begin).get<std::uint64_t>() == recording_magic;
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+}
+
 Recording load_recording(const std::filesystem::path& file, const Progress& progress) {
     try {
         return Loader(file, progress).load();

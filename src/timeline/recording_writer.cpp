@@ -33,7 +33,8 @@ void RecordingWriter::write(const Bookmark& bookmark) {
 }
 
 std::uint32_t RecordingWriter::number_of(const DescriptionPtr& description) {
-    const auto [place, is_new] = descriptions_.try_emplace(description, static_cast<std::uint32_t>(descriptions_.size()));
+    const auto [place, is_new] =
+        descriptions_.try_emplace(description, static_cast<std::uint32_t>(descriptions_.size()));
     if (is_new) {
         scene::Scene scene;
         scene.simulation = *description;
