@@ -32,8 +32,11 @@ MeshesWritten write_meshes(const Timeline& timeline, const MeshSequence& sequenc
                              std::to_string(end));
     const auto every = static_cast<std::uint64_t>(std::max(sequence.every, 1));
     MeshesWritten result;
+    std::error_code error;
+    std::filesystem::create_directories(sequence.folder, error);
+    if (error)
+        throw RecordingError(sequence.folder.string() + ": the folder cannot be made: " + error.message());
     try {
-        std::filesystem::create_directories(sequence.folder);
         Reader reader(execution);
         for (std::uint64_t frame = first; frame <= last; frame += every) {
             const Moment moment{line->id, timeline.step_of_frame(line->id, frame)};

@@ -1,0 +1,101 @@
+// Saving, loading and exporting beside the window.
+#include "app/core/recording_job.h"
+
+#include <catch2/catch_test_macros.hpp>
+#include <chrono>
+
+#include "support/recordings.h"
+
+using namespace clothlab;
+using namespace clothlab::test;
+
+namespace {
+
+constexpr auto single = sim::Precision::single_precision;
+
+app::RecordingJob::Result result_of(app::RecordingJob& job) {
+    job.wait();
+    REQUIRE_FALSE(job.status());
+    std::optional<app::RecordingJob::Result> result = job.take_result();
+    REQUIRE(result);
+    REQUIRE_FALSE(job.take_result());
+    return std::move(*result);
+}
+
+/// What takes long to save: states that have to be computed.
+timeline::Recording long_recording() {
+    timeline::Recording recording;
+    recording.scene.simulation = recorded_cloth(60, 60);
+    timeline::Player player({.seek_s = 100});
+    player.start(recording.scene.simulation);
+    for (int n = 0; n < 4 * 40; ++n)
+        player.step();
+    recording.timeline = player.timeline();
+    recording.at = player.moment();
+    return recording;
+}
+
+} // namespace
+
+TEST_CASE("A job saves, loads and exports in its own thread and says what it came to", "[threads]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "fold.clothrec";
+    const timeline::Recording recording = busy_recording(6, 6, single);
+    app::RecordingJob job;
+    REQUIRE_FALSE(job.status());
+    REQUIRE_FALSE(job.take_result());
+
+    REQUIRE(job.save(recording, file));
+    app::RecordingJob::Result result = result_of(job);
+    REQUIRE(result.succeeded);
+    REQUIRE(result.text.find("Saved fold.clothrec, 0.0 MB.") == 0);
+    REQUIRE(timeline::load_recording(file).damage.empty());
+
+    REQUIRE(job.load(file));
+    result = result_of(job);
+    REQUIRE(result.succeeded);
+    REQUIRE(result.loaded);
+    REQUIRE(result.loaded->timeline.branches().size() == recording.timeline.branches().size());
+
+    timeline::MeshSequence sequence;
+    sequence.folder = folder / "meshes";
+    sequence.line = 1;
+    sequence.frames = {1, 3};
+    REQUIRE(job.write_meshes(recording.timeline, sequence));
+    result = result_of(job);
+    REQUIRE(result.succeeded);
+    REQUIRE(result.text == "Wrote 3 meshes to " + (folder / "meshes").string() + ".");
+    REQUIRE(files_of(folder / "meshes").size() == 3);
+
+    REQUIRE(job.load(folder / "missing"));
+    result = result_of(job);
+    REQUIRE_FALSE(result.succeeded);
+    REQUIRE_FALSE(result.loaded);
+    REQUIRE(result.text.find((folder / "missing").string() + ": ") == 0);
+}
+
+TEST_CASE("A job that is cancelled, or whose window closes, ends soon and leaves the old file", "[threads]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "a.clothrec";
+    write_file(file, "old");
+    const timeline::Recording recording = long_recording();
+    app::RecordingJob job;
+    REQUIRE(job.save(recording, file));
+    while (job.status() && job.status()->share == 0)
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+    REQUIRE(job.status());
+    REQUIRE(job.status()->what == "Saving a.clothrec");
+    REQUIRE_FALSE(job.save(recording, folder / "b.clothrec")); // one at a time
+    job.cancel();
+    const app::RecordingJob::Result result = result_of(job);
+    REQUIRE_FALSE(result.succeeded);
+    REQUIRE(result.cancelled);
+    REQUIRE(result.text.find("cancelled") != std::string::npos);
+    REQUIRE(read_file(file) == "old");
+    {
+        app::RecordingJob closing;
+        REQUIRE(closing.save(recording, file));
+    }
+    REQUIRE(read_file(file) == "old");
+    REQUIRE(files_of(folder.path()).size() == 1);
+}
