@@ -16,8 +16,9 @@ PictureMaker::PictureMaker(render::Renderer& renderer, int width, int height, in
 }
 
 render::Image PictureMaker::draw(const scene::Scene& scene, const std::vector<scene::ShaderDeclaration>& shaders,
-                                 const sim::Snapshot* snapshot, const TraceChoice& inside) {
+                                 const sim::Snapshot* snapshot, const sim::Snapshot* ghost, const TraceChoice& inside) {
     render::Scene what = to_render(scene, shaders, snapshot, static_cast<double>(target_.width()) / target_.height());
+    what.ghost = ghost;
     trace_view_.show(inside, what);
     const auto drawn = [&] {
         renderer_.draw(what, target_);

@@ -18,9 +18,11 @@ public:
     int width() const { return target_.width(); }
     int height() const { return target_.height(); }
 
-    /// With the inside of a step, if there is any to be seen. Throws render::ShaderError as the renderer does.
+    /// With a ghost where there is one (render::Scene::ghost), and with the inside of a step. Throws render::ShaderError
+    /// as the renderer does.
     render::Image draw(const scene::Scene& scene, const std::vector<scene::ShaderDeclaration>& shaders,
-                       const sim::Snapshot* snapshot, const TraceChoice& inside = {});
+                       const sim::Snapshot* snapshot, const sim::Snapshot* ghost = nullptr,
+                       const TraceChoice& inside = {});
 
 private:
     render::Renderer& renderer_;

@@ -164,7 +164,10 @@ void Pictures::take(const ui::TakePicture& wanted) {
         return;
     }
     try {
-        keep(maker(o.transparent).draw(lab_.scene, lab_.shaders, lab_.snapshot.get(), trace_choice(lab_)), file);
+        keep(maker(o.transparent)
+                 .draw(lab_.scene, lab_.shaders, lab_.snapshot.get(), lab_.timeline.ghost_snapshot.get(),
+                       trace_choice(lab_)),
+             file);
     } catch (const std::exception& e) {
         say(true, e.what());
     }
@@ -204,7 +207,7 @@ void Pictures::record(const ui::Record& wanted) {
             sink = std::make_unique<PictureSequence>(SequenceName(file));
         if (o.from_start) {
             simulation_.play(false); // or the new run could take a frame before the recorder has its first
-            simulation_.start(lab_.scene.simulation);
+            simulation_.restart(lab_.scene.simulation);
         }
         recorder_ = std::make_unique<Recorder>(RecordingPlan{pace.every, pace.pictures}, simulation_,
                                                std::move(pictures), std::move(sink));

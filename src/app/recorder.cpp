@@ -34,7 +34,8 @@ bool Recorder::advance(const scene::Scene& scene, const std::vector<scene::Shade
         why_ = trouble ? trouble->cause : "the run was stepped by hand";
         return false;
     }
-    sink_->add(maker_.draw(scene, shaders, now.snapshot.get()));
+    const sim::Snapshot* ghost = now.ghost.get();
+    sink_->add(maker_.draw(scene, shaders, compare_with_ghost(now.snapshot, ghost).snapshot.get(), ghost));
     ++pictures_;
     if (pictures_ == plan_.pictures)
         return false;

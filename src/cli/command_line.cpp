@@ -90,6 +90,13 @@ void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiC
     render->add_option("--size", size, "WIDTHxHEIGHT in pixels (default: 1280x720)");
     render->add_option("--shader", a.shader, "How the cloth is drawn (clothlab list shaders)");
     render->add_option("--camera", a.camera, "JSON file with the keys of a scene's camera");
+    render
+        ->add_option(
+            "--ghost", a.ghost,
+            "KEY=VALUE: draw the same scene with this parameter over it, see-through, at the same time; repeat "
+            "for more")
+        ->take_all()
+        ->allow_extra_args(false);
     render->add_flag("--ui", a.ui, "Draw the whole lab, with its panels");
     render->add_flag("--transparent", a.transparent, "No background in PNG pictures");
     render->add_option("--from", a.from, "The first frame of a film or a sequence (default: 0)")
@@ -178,14 +185,18 @@ scene::Scene SceneArguments::load() const {
 }
 
 void SceneArguments::apply(scene::Scene& result, const std::string& source) const {
+    cli::apply(settings, "--set", result);
+    scene::check(result, source);
+}
+
+void apply(const std::vector<std::string>& settings, const std::string& option, scene::Scene& scene) {
     for (const std::string& setting : settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos || equals == 0)
-            throw scene::SceneError("--set " + setting + ": write KEY=VALUE");
-        scene::set_parameter(result, std::string_view(setting).substr(0, equals),
+            throw scene::SceneError(option + " " + setting + ": write KEY=VALUE");
+        scene::set_parameter(scene, std::string_view(setting).substr(0, equals),
                              std::string_view(setting).substr(equals + 1));
     }
-    scene::check(result, source);
 }
 
 int run_program(int argc, const char* const* argv, const GuiCommands& gui) {

@@ -21,6 +21,10 @@ struct SceneArguments {
     void apply(scene::Scene& scene, const std::string& source) const;
 };
 
+/// Sets parameters of a scene, each KEY=VALUE. `option` is the one they came with, for what is wrong with them. Throws
+/// scene::SceneError.
+void apply(const std::vector<std::string>& settings, const std::string& option, scene::Scene& scene);
+
 struct LabArguments {
     SceneArguments scene;
     int latitude_lines = 0, longitude_lines = 0; ///< of drawn spheres; 0: as the scene says
@@ -35,6 +39,8 @@ struct RenderArguments {
     std::string camera; ///< file; empty: as the scene says
     bool ui = false;    ///< the whole lab, not the viewport alone
     std::string output; ///< .png, .png with a place for a number, or .mp4
+    /// KEY=VALUE: the same scene with these parameters besides is drawn over it as a ghost; empty: none.
+    std::vector<std::string> ghost;
     bool transparent = false;
     int from = 0;              ///< the first frame of a film or a sequence; frame is the last
     std::optional<int> every;  ///< simulated frames from one picture to the next

@@ -26,6 +26,7 @@ glm::vec3 linear(const glm::vec3& srgb);
 inline constexpr std::array<glm::vec3, sim::spring_kinds> spring_colours = {colour(0x56B4E9), colour(0xE69F00),
                                                                             colour(0xCC79A7)};
 inline constexpr glm::vec3 pin_colour = colour(0xFFFFFF);
+inline constexpr glm::vec3 ghost_colour = colour(0xB48CFF);
 
 /// A point light: the light that arrives at distance r is intensity / r².
 struct Light {

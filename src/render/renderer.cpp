@@ -6,6 +6,8 @@
 
 #include "render/cloth_mesh.h"
 #include "render/collider_mesh.h"
+#include "render/ghost.h"
+#include "render/gl_state.h"
 #include "render/projected.h"
 #include "render/shader_library.h"
 #include "render/shadow.h"
@@ -27,33 +29,6 @@ struct FrameBlock {
     glm::vec4 shadow;                ///< x: 1 with a shadow; y: ShadowView::ahead; z: a texel's share of the map
 };
 
-/// Everything that the pictures rely on and others may have changed.
-void set_state() {
-    for (const GLenum off : {GL_SCISSOR_TEST, GL_CULL_FACE, GL_STENCIL_TEST, GL_BLEND, GL_POLYGON_OFFSET_FILL,
-                             GL_SAMPLE_ALPHA_TO_COVERAGE, GL_PRIMITIVE_RESTART})
-        glDisable(off);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    glFrontFace(GL_CCW);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_LESS);
-    glEnable(GL_DEPTH_TEST);
-    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); // nobody else here draws cube maps, so it stays
-    glBlendEquation(GL_FUNC_ADD);
-    // The picture stays opaque whatever is blended over it.
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-}
-
-void reset_state() {
-    glDisable(GL_SCISSOR_TEST);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_BLEND);
-    glDisable(GL_PROGRAM_POINT_SIZE);
-    glBindVertexArray(0);
-    glUseProgram(0);
-    glBindBuffer(GL_UNIFORM_BUFFER, 0);
-}
-
 /// The texture unit of a surface shader's first texture; those below are for what all shaders share.
 constexpr int first_surface_unit = 1;
 
@@ -62,7 +37,7 @@ bool spheres_like_cloth(const Options& options, const Surface& surface) {
     return options.spheres_like_cloth && !surface.lines;
 }
 
-constexpr const char* always_needed[] = {"background", "sphere", "plane", "pins", "arrows"};
+constexpr const char* always_needed[] = {"background", "sphere", "plane", "pins", "arrows", "ghost"};
 
 } // namespace
 
@@ -74,6 +49,7 @@ struct Renderer::Parts {
     ClothMesh cloth;
     SortedTriangles sorted;
     Arrows arrows;
+    Ghost ghost;
     SphereMesh sphere, caster;                       ///< that is drawn, and that casts a shadow
     VertexArray no_vertices = VertexArray::create(); ///< for shaders that make their own
     Buffer frame = Buffer::create();
@@ -400,6 +376,7 @@ void Renderer::Parts::draw_part(const Scene& what, const Surface& surface, DrawR
     if (what.options.show_pins)
         draw_pins(what, report);
     report.arrows = arrows.draw(what.arrows, what.marker, 1.4f * report.line_width, shaders);
+    report.ghost_triangles = ghost.draw(shaders);
 }
 
 DrawReport Renderer::draw(const Scene& what, Target& target) {
@@ -412,6 +389,7 @@ DrawReport Renderer::draw(const Scene& what, Target& target) {
         parts.cloth.update(*what.snapshot);
     else
         parts.cloth.clear();
+    parts.ghost.update(what.ghost);
     const ProjectedCloth projected =
         project(what.snapshot, parts.cloth.drawn(), what.view, target.width(), target.height());
     DrawReport report;
@@ -420,6 +398,7 @@ DrawReport Renderer::draw(const Scene& what, Target& target) {
     report.cloth_box = {projected.min_x, projected.min_y, projected.max_x, projected.max_y};
     report.points_in_view = projected.inside;
     report.points_not_drawable = parts.cloth.not_drawable();
+    report.ghost_not_drawable = parts.ghost.not_drawable();
     // A ninth of a cell at most: a fine grid would else be one plain of colour.
     report.line_width = std::max(0.1f, options.line_width);
     if (projected.cell > 0)

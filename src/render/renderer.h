@@ -20,6 +20,7 @@ namespace clothlab::render {
 /// What is to be drawn; it has to live as long as the call of draw().
 struct Scene {
     const sim::Snapshot* snapshot = nullptr; ///< none: no cloth
+    const sim::Snapshot* ghost = nullptr;    ///< another cloth, of any grid, drawn see-through over the picture
     std::span<const sim::Collider> colliders;
     std::span<const sim::GridPoint> pinned;
     View view;
@@ -49,6 +50,8 @@ struct DrawReport {
     std::size_t points_in_view = 0;      ///< cloth points inside the view, hidden ones too
     std::size_t points_not_drawable = 0; ///< not finite, or beyond drawable_range
     float line_width = 0;                ///< px, as drawn
+    std::size_t ghost_triangles = 0;     ///< what is above does not count the ghost
+    std::size_t ghost_not_drawable = 0;
 };
 
 class Renderer {

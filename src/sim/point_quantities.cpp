@@ -68,6 +68,9 @@ void point_quantity(PointQuantity which, const Model<Real>& model, const State<R
     case PointQuantity::curvature:
         point_curvatures(columns, rows, positions, values);
         break;
+    case PointQuantity::distance:
+        values.assign(model.grid->points(), 0.f);
+        break;
     }
     for (float& value : values)
         value = std::isfinite(value) ? value : 0.f;

@@ -23,9 +23,13 @@ enum class PointQuantity : std::uint8_t {
     /// m; see point_gaps.
     gap,
     /// 1/m; see point_curvatures.
-    curvature
+    curvature,
+    /// m, to the same point of another cloth. A simulation knows of no other and gives 0; who compares two (the app)
+    /// puts the distances into the snapshot.
+    distance
 };
-inline constexpr std::array<std::string_view, 5> point_quantity_names{"none", "strain", "speed", "gap", "curvature"};
+inline constexpr std::array<std::string_view, 6> point_quantity_names{"none", "strain",    "speed",
+                                                                      "gap",  "curvature", "distance"};
 std::optional<PointQuantity> find_point_quantity(std::string_view name);
 
 /// The quantity of every point of a state; nothing for `none`. Where it is no number, springs and points that are not

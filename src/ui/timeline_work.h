@@ -96,6 +96,7 @@ struct TimelineWork {
     std::optional<timeline::FrameRange> loop;
 
     timeline::BranchId ghost = 0;                     ///< the branch that is drawn over the one shown; 0: none
+    std::shared_ptr<const sim::Snapshot> ghost_snapshot;  ///< at the playhead; none where the ghost has nothing so late
     std::optional<timeline::Distance> ghost_distance; ///< at the playhead; none where the ghost has nothing so late
     std::shared_ptr<const std::vector<timeline::DistanceSample>> ghost_curve; ///< as far as it has been computed
     double ghost_progress = 0;                                                ///< of the curve, 0 to 1

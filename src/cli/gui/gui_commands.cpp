@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/core/data_folder.h"
+#include "app/ghost_view.h"
 #include "app/gui/film.h"
 #include "app/gui/picture_sequence.h"
 #include "app/lab_app.h"
@@ -86,18 +87,42 @@ private:
     app::LabApp lab_;
 };
 
+/// What a ghost is a run of. Throws SceneError.
+std::optional<sim::Description> ghost_of(const RenderArguments& a, scene::Scene scene) {
+    if (a.ghost.empty())
+        return {};
+    for (const std::string& setting : a.ghost)
+        if (setting.starts_with("look.") || setting.starts_with("camera."))
+            throw scene::SceneError("--ghost " + setting + ": a ghost differs in its simulation alone; write --set");
+    apply(a.ghost, "--ghost", scene);
+    scene::check(scene, a.scene.scene);
+    return scene.simulation;
+}
+
 class SceneCamera final : public Camera {
 public:
     SceneCamera(const RenderArguments& a, scene::Scene scene)
         : scene_(std::move(scene)), window_(app::Window::Kind::offscreen, a.width, a.height, "clothlab"),
           shaders_(app::read_shader_list(app::shader_folders())), renderer_(app::shader_folders()),
           maker_(renderer_, a.width, a.height, app::samples_of(scene_.look.multisampling, 4), a.transparent),
-          simulation_(sim::Simulation::create(scene_.simulation)) {}
+          simulation_(sim::Simulation::create(scene_.simulation)) {
+        if (const auto other = ghost_of(a, scene_))
+            ghost_ = sim::Simulation::create(*other);
+    }
     render::Image picture(int frame) override {
         while (simulation_->frame() < static_cast<std::uint64_t>(frame))
             simulation_->step_frame();
-        simulation_->capture(snapshot_, app::extras_of(scene_.look, shaders_));
-        render::Image image = maker_.draw(scene_, shaders_, &snapshot_);
+        auto snapshot = std::make_shared<sim::Snapshot>();
+        simulation_->capture(*snapshot, app::extras_of(scene_.look, shaders_));
+        if (ghost_) {
+            const double half_a_step = sim::step_length(ghost_->description()) / 2;
+            while (ghost_->time() < simulation_->time() - half_a_step)
+                ghost_->step();
+            ghost_->capture(ghost_snapshot_);
+        }
+        const sim::Snapshot* ghost = ghost_ ? &ghost_snapshot_ : nullptr;
+        render::Image image =
+            maker_.draw(scene_, shaders_, app::compare_with_ghost(snapshot, ghost).snapshot.get(), ghost);
         // The lab goes on with a stand-in for a picture that is missing; here nobody would notice.
         if (const std::vector<std::string> errors = renderer_.texture_errors(); !errors.empty())
             throw std::runtime_error(errors.front());
@@ -110,8 +135,8 @@ private:
     std::vector<scene::ShaderDeclaration> shaders_;
     render::Renderer renderer_;
     app::PictureMaker maker_;
-    std::unique_ptr<sim::Simulation> simulation_;
-    sim::Snapshot snapshot_;
+    std::unique_ptr<sim::Simulation> simulation_, ghost_;
+    sim::Snapshot ghost_snapshot_;
 };
 
 void draw_frames(const RenderArguments& a, Camera& camera, int every, app::PictureSink& sink) {
@@ -150,6 +175,8 @@ void check_output(const RenderArguments& a) {
     if (a.from > a.frame)
         throw scene::SceneError("--from " + std::to_string(a.from) + " is after the last frame, --frame " +
                                 std::to_string(a.frame));
+    if (!a.ghost.empty() && a.ui)
+        throw scene::SceneError("--ghost: the lab's ghosts are its own branches; leave out --ui");
     if (a.transparent && (film || a.ui))
         throw scene::SceneError(film ? "--transparent: films have no transparency; write -o NAME-%04d.png"
                                      : "--transparent: the lab's panels have a background; leave out --ui");

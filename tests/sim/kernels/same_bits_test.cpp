@@ -80,7 +80,7 @@ void require_same_stage(std::uint64_t seed, bool extremes, Stage stage) {
     Sheet<Real> start(description, exactly(sim::InstructionSet::scalar, 1));
     crumple(start, random, extremes);
     const sim::State<Real> before = start.state;
-    const std::size_t expected = stage(start);
+    const auto expected = stage(start);
     for (const sim::InstructionSet set : supported_sets())
         for (const int threads : {1, 3}) {
             Sheet<Real> sheet(description, exactly(set, threads));
