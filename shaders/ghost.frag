@@ -22,6 +22,6 @@ void main() {
     float border = max(line(from_border.x, 5.0), line(from_border.y, 5.0));   // half of it is beyond the cloth
     float facing = abs(dot(normalize(world_normal), direction_to_eye(world_position)));
     float silhouette = 1.0 - smoothstep(0.1, 0.35, facing);
-    float opacity = max(fill, lines * max(border, inner * max(silhouette, 0.5 * grid)));
+    float opacity = max(fill, lines * max(border, inner * max(0.8 * silhouette, 0.65 * grid)));
     pixel = vec4(colour * mix(0.6, 1.0, facing), opacity);
 }

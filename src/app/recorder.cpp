@@ -1,5 +1,7 @@
 #include "app/recorder.h"
 
+#include "app/ghost_view.h"
+
 namespace clothlab::app {
 
 Recorder::Recorder(const RecordingPlan& plan, SimulationThread& simulation, PictureMaker maker,

@@ -16,10 +16,16 @@ public:
     /// buffer with the ghost in it. Returns the number of triangles.
     std::size_t draw(ShaderLibrary& shaders) const;
 
+    /// Draws it for cloth that is see-through itself to be drawn over; all layers, none of which is left in the depth
+    /// buffer.
+    void draw_under(ShaderLibrary& shaders) const;
+
     /// Points left out, with all that hangs on them.
     std::size_t not_drawable() const { return cloth_.not_drawable(); }
 
 private:
+    const Program& use(ShaderLibrary& shaders) const;
+
     ClothMesh cloth_;
     glm::vec2 cells_{1, 1}; ///< between its lines
 };

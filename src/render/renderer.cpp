@@ -70,6 +70,7 @@ struct Renderer::Parts {
     void draw_part(const Scene& what, const Surface& surface, DrawReport& report);
     void use(const Program& program, const Options& options, const std::vector<Uniform>& uniforms);
     void draw_cloth(const Scene& what, const Surface& surface, DrawReport& report);
+    void draw_depth(const Options& options, const Surface& surface);
     void draw_springs(const Options& options, const Program& program, const Program* surface, DrawReport& report);
     void draw_spheres(const Scene& what, const Surface& surface, DrawReport& report);
     void draw_planes(const Scene& what, DrawReport& report);
@@ -234,6 +235,14 @@ void Renderer::Parts::draw_cloth(const Scene& what, const Surface& surface, Draw
     draw_springs(options, lines, surface.lines ? nullptr : &program, report);
 }
 
+/// The cloth in the depth buffer alone.
+void Renderer::Parts::draw_depth(const Options& options, const Surface& surface) {
+    use(shaders.surface(surface.shader), options, surface.uniforms);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    cloth.draw_surface();
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 void Renderer::Parts::draw_spheres(const Scene& what, const Surface& surface, DrawReport& report) {
     const Options& options = what.options;
     sphere.set_lines(surface.sphere_lat_lines, surface.sphere_lon_lines);
@@ -371,12 +380,16 @@ void Renderer::Parts::draw_part(const Scene& what, const Surface& surface, DrawR
         draw_spheres(what, surface, report);
     if (!planes_first)
         draw_planes(what, report);
-    if (cloth_last && what.snapshot != nullptr)
+    if (cloth_last && what.snapshot != nullptr) {
+        ghost.draw_under(shaders);
         draw_cloth(what, surface, report);
+    }
     if (what.options.show_pins)
         draw_pins(what, report);
-    report.arrows = arrows.draw(what.arrows, what.marker, 1.4f * report.line_width, shaders);
+    if (cloth_last && what.ghost != nullptr) // what is behind the cloth has shone through it
+        draw_depth(what.options, surface);
     report.ghost_triangles = ghost.draw(shaders);
+    report.arrows = arrows.draw(what.arrows, what.marker, 1.4f * report.line_width, shaders);
 }
 
 DrawReport Renderer::draw(const Scene& what, Target& target) {

@@ -87,7 +87,7 @@ const std::array<BreakpointKindInfo, breakpoint_kinds>& breakpoint_info() {
         {"plane contact", "", "A point touches a plane, and none did in the step before.", 0},
         {"self-contact", "", "Points of the cloth push each other apart, and none did in the step before.", 0},
         {"energy gain", "J", "The total energy grows by more than this in one step, and did not in the step before.",
-         0.01},
+         0.1},
         {"point rises", "m", "A point of the cloth gets above this height.", 1},
         {"point falls", "m", "A point of the cloth gets below this height.", 0.5},
         {"RMS speed", "m/s", "The root mean square of the points' speeds gets below this: the cloth comes to rest.",

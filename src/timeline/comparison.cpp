@@ -69,15 +69,6 @@ std::pair<std::uint64_t, double> nearest_step(const Timeline& timeline, BranchId
     return {low, after};
 }
 
-/// What was changed at a step of a line, the last of it.
-DescriptionPtr changed_at(const Timeline& timeline, const Moment& moment) {
-    DescriptionPtr last;
-    for (const Change& change : timeline.owner(moment).changes)
-        if (change.step == moment.step)
-            last = change.description;
-    return last;
-}
-
 void positions_of(const sim::Simulation& simulation, std::vector<float>& positions) {
     positions.resize(3 * simulation.points());
     for (std::size_t i = 0; i < simulation.points(); ++i) {
@@ -136,7 +127,7 @@ std::optional<Moment> same_time(const Timeline& timeline, const Moment& moment, 
 }
 
 Comparison::Comparison(Timeline timeline, BranchId a, BranchId b, const sim::Execution& execution)
-    : timeline_(std::move(timeline)), a_(a), b_(b), execution_(execution), reader_a_(execution), reader_b_(execution) {
+    : timeline_(std::move(timeline)), a_(a), b_(b), reader_a_(execution), reader_b_(execution) {
     if (!comparable(timeline_, a, b))
         return;
     first_ = next_ = timeline_.frame_time({a, parting(timeline_, a, b)}).frame;
@@ -161,16 +152,6 @@ void Comparison::find_end() {
 void Comparison::grow(Timeline timeline) {
     if (!comparable(timeline_, a_, b_) || !comparable(timeline, a_, b_))
         return;
-    // What was changed where a reader stands after it had come there is not in what it has.
-    const auto check = [&](Reader& reader, BranchId line) {
-        if (!reader.has_simulation())
-            return;
-        const Moment at{line, reader.simulation().steps()};
-        if (changed_at(timeline_, at) != changed_at(timeline, at))
-            reader = Reader(execution_);
-    };
-    check(reader_a_, a_);
-    check(reader_b_, b_);
     timeline_ = std::move(timeline);
     find_end();
 }

@@ -47,7 +47,6 @@ private:
 
     Timeline timeline_;
     BranchId a_, b_;
-    sim::Execution execution_;
     Reader reader_a_, reader_b_;
     std::uint64_t first_ = 0, next_ = 0, end_ = 0; ///< frames of a; end_ is the first that b has nothing of
     std::vector<DistanceSample> samples_;

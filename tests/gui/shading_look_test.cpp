@@ -166,9 +166,10 @@ TEST_CASE("A heat map's colour is the map's at the value, and that of the ends b
         const char* map;
         double unit, low, high; ///< one of the legend's units in SI, and the ends that are set
     };
-    for (const Case& c : {Case{"strain", "blue-orange", 0.01, -10, 10}, Case{"speed", "viridis", 1, 0, 2},
-                          Case{"gap", "cividis", 0.001, 20, -5}, Case{"curvature", "viridis", 1, 0, 40},
-                          Case{"wireframe-strain", "blue-orange", 0.01, -10, 10}}) {
+    for (const Case& c :
+         {Case{"strain", "blue-orange", 0.01, -10, 10}, Case{"speed", "viridis", 1, 0, 2},
+          Case{"gap", "cividis", 0.001, 20, -5}, Case{"curvature", "viridis", 1, 0, 40},
+          Case{"distance", "viridis", 0.001, 0, 50}, Case{"wireframe-strain", "blue-orange", 0.01, -10, 10}}) {
         render::Scene scene = scene_of(cloth);
         scene.options.line_width = 9;
         scene::ShaderValues values = {{"low", c.low}, {"high", c.high}, {"map", c.map}};

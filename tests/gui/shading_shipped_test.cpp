@@ -42,9 +42,9 @@ TEST_CASE("Every shader is there, its declaration is right, and every parameter 
             }
         }
     }
-    CHECK(names == std::set<std::string>{"blinn-phong", "bump", "curvature", "diffuse", "displacement", "gap", "mirror",
-                                         "normals", "speed", "strain", "texture", "toon", "translucent", "wireframe",
-                                         "wireframe-strain"});
+    CHECK(names == std::set<std::string>{"blinn-phong", "bump", "curvature", "diffuse", "displacement", "distance",
+                                         "gap", "mirror", "normals", "speed", "strain", "texture", "toon",
+                                         "translucent", "wireframe", "wireframe-strain"});
 }
 
 TEST_CASE("The documentation shows every shader in a picture, and its example of one's own works", "[shading]") {

@@ -226,7 +226,17 @@ TEST_CASE("A snapshot has the quantity that was asked for, and none else") {
     REQUIRE(snapshot.quantity.empty());
 }
 
+TEST_CASE("A simulation alone is at no distance from itself") {
+    const auto simulation = sim::Simulation::create(bare_cloth(5, 4));
+    simulation->step();
+    sim::Snapshot snapshot;
+    simulation->capture(snapshot, {.quantity = sim::PointQuantity::distance});
+    REQUIRE(snapshot.quantity_kind == sim::PointQuantity::distance);
+    REQUIRE(snapshot.quantity == std::vector<float>(20, 0.f));
+}
+
 TEST_CASE("Point quantities are found by name") {
+    REQUIRE(sim::find_point_quantity("distance") == sim::PointQuantity::distance);
     REQUIRE(sim::find_point_quantity("curvature") == sim::PointQuantity::curvature);
     REQUIRE(sim::find_point_quantity("none") == sim::PointQuantity::none);
     REQUIRE_FALSE(sim::find_point_quantity("Strain"));

@@ -231,11 +231,11 @@ TEST_CASE("Breakpoints that are off do not hit, and the first of several that hi
 }
 
 TEST_CASE("A breakpoint says what it pauses at, with units", "[breakpoints]") {
-    CHECK(describe({BreakpointKind::max_strain, 0.05}) == "max strain > 5 %");
-    CHECK(describe({BreakpointKind::sphere_contact}) == "sphere contact");
-    CHECK(describe({BreakpointKind::energy_gain, 0.25}) == "energy gain > 0.25 J in a step");
-    CHECK(describe({BreakpointKind::point_falls, 0.5, {3, 4}}) == "point 3, 4 below 0.5 m");
-    CHECK(describe({BreakpointKind::rms_speed, 0.01}) == "RMS speed < 0.01 m/s");
+    CHECK(timeline::describe({BreakpointKind::max_strain, 0.05}) == "max strain > 5 %");
+    CHECK(timeline::describe({BreakpointKind::sphere_contact}) == "sphere contact");
+    CHECK(timeline::describe({BreakpointKind::energy_gain, 0.25}) == "energy gain > 0.25 J in a step");
+    CHECK(timeline::describe({BreakpointKind::point_falls, 0.5, {3, 4}}) == "point 3, 4 below 0.5 m");
+    CHECK(timeline::describe({BreakpointKind::rms_speed, 0.01}) == "RMS speed < 0.01 m/s");
     for (const auto& info : timeline::breakpoint_info()) {
         CHECK(std::string(info.name).size() > 3);
         CHECK(std::string(info.help).ends_with("."));
