@@ -75,7 +75,8 @@ LabApp::~LabApp() = default;
 void LabApp::run() {
     // Paused and untouched, the lab rests: a few frames a second keep its state fresh.
     for (;;) {
-        const bool busy = lab_.playing || lab_.flight || pictures_.recording() || ImGui::IsAnyItemActive() || dialog_;
+        const bool busy = lab_.playing || lab_.flight || pictures_.recording() || timeline_desk_.expects_news() ||
+                          ImGui::IsAnyItemActive() || dialog_;
         if (!frame(busy ? 0 : 0.05))
             return;
     }
@@ -84,7 +85,7 @@ void LabApp::run() {
 bool LabApp::frame(double wait_seconds) {
     window_.poll(wait_seconds);
     if (window_.should_close()) {
-        if (!ui::has_unsaved_shaders(lab_))
+        if (!ui::has_unsaved_shaders(lab_) && !timeline_desk_.busy())
             return false;
         window_.keep_open();
         lab_.ask(ui::Quit{});
@@ -142,10 +143,11 @@ void LabApp::take_published() {
         if (!refusal_.empty())
             say(true, refusal_);
     }
-    if (now.snapshot)
-        lab_.snapshot = now.snapshot;
-    if (!lab_.snapshot)
+    if (!now.snapshot)
         return;
+    timeline_desk_.update(now);
+    follow_timeline(now);
+    take_opened();
     tell_trouble(lab_.snapshot->diagnostics);
     // Nobody looks at what a hidden panel would show, and it costs as much as some hundred steps.
     // A recording rests after each frame, and would wait for it each time.
@@ -159,6 +161,23 @@ void LabApp::take_published() {
     if (quantities != watching_quantities_)
         simulation_.watch_quantity(wanted.quantity, wanted.second_quantity);
     watching_quantities_ = quantities;
+}
+
+void LabApp::follow_timeline(const Published& now) {
+    // Parameters change by going elsewhere in time as well: the panels show those of the state shown.
+    if (now.taken < told_description_ || !now.description || *now.description == passed_on_)
+        return;
+    lab_.scene.simulation = passed_on_ = *now.description;
+    lab_.pending.reset();
+    history_.follow(lab_.scene);
+}
+
+void LabApp::take_opened() {
+    auto opened = timeline_desk_.take_opened();
+    if (!opened)
+        return;
+    show_scene(std::move(opened->recording.scene), {});
+    told_description_ = simulation_.adopt(std::move(opened->recording.timeline), opened->recording.at);
 }
 
 void LabApp::tell_legend() {
@@ -186,6 +205,12 @@ void LabApp::tell_trouble(const sim::Diagnostics& d) {
 }
 
 void LabApp::set_scene(scene::Scene scene, fs::path file) {
+    show_scene(std::move(scene), std::move(file));
+    told_description_ = simulation_.start(passed_on_);
+}
+
+void LabApp::show_scene(scene::Scene scene, fs::path file) {
+    timeline_desk_.restart();
     if (!scene.camera)
         scene.camera = scene::fitting_camera(scene.simulation);
     resolve_textures(scene.look, lab_.shaders, file.parent_path());
@@ -199,7 +224,6 @@ void LabApp::set_scene(scene::Scene scene, fs::path file) {
     lab_.pending.reset();
     history_.restart(scene);
     passed_on_ = scene.simulation;
-    simulation_.start(passed_on_);
 }
 
 void LabApp::drop(const fs::path& file) {
@@ -218,6 +242,10 @@ void LabApp::drop(const fs::path& file) {
 }
 
 bool LabApp::open(const fs::path& file) {
+    if (file.extension() == timeline::recording_suffix) {
+        timeline_desk_.open(file);
+        return true;
+    }
     try {
         set_scene(scene::load_scene(file), file);
         return true;
@@ -232,7 +260,7 @@ void LabApp::pass_on_edits() {
         try {
             scene::check(lab_.scene, "This change cannot be made");
             passed_on_ = lab_.scene.simulation;
-            simulation_.change(passed_on_);
+            told_description_ = simulation_.change(passed_on_);
         } catch (const scene::SceneError& e) {
             lab_.scene.simulation = passed_on_;
             say(true, e.what());
@@ -274,7 +302,7 @@ void LabApp::carry_out_requests() {
                 else if constexpr (std::is_same_v<R, ui::StepSubstep>)
                     simulation_.step(1);
                 else if constexpr (std::is_same_v<R, ui::Restart>)
-                    simulation_.start(lab_.scene.simulation);
+                    told_description_ = simulation_.restart(lab_.scene.simulation);
                 else if constexpr (std::is_same_v<R, ui::SetSpeed>) {
                     lab_.speed = r.speed;
                     simulation_.set_speed(r.speed);
@@ -292,9 +320,11 @@ void LabApp::carry_out_requests() {
                 } else if constexpr (std::is_same_v<R, ui::ShaderRequest>) {
                     shader_desk_.carry_out(r);
                 } else if constexpr (std::is_same_v<R, ui::TimelineRequest>) {
+                    timeline_desk_.carry_out(r);
                 } else if constexpr (std::is_same_v<R, ui::Quit>) {
-                    quit_ = r.drop_unsaved || !ui::has_unsaved_shaders(lab_);
-                    lab_.shader_work.asking_to_quit = !quit_;
+                    const bool saved = r.drop_unsaved || !ui::has_unsaved_shaders(lab_);
+                    quit_ = saved && timeline_desk_.may_quit();
+                    lab_.shader_work.asking_to_quit = !saved;
                 } else
                     static_assert(std::is_same_v<R, ui::TakePicture> || std::is_same_v<R, ui::Record> ||
                                   std::is_same_v<R, ui::EndRecording>); // are for pictures_
@@ -306,7 +336,8 @@ void LabApp::carry_out_requests() {
 void LabApp::draw_viewport() {
     if (lab_.viewport_width < 1 || lab_.viewport_height < 1)
         return; // the panel has not been drawn yet
-    Shown now{lab_.snapshot, lab_.scene, lab_.viewport_width, lab_.viewport_height, trace_choice(lab_)};
+    Shown now{lab_.snapshot,       lab_.timeline.ghost_snapshot, lab_.scene,
+              lab_.viewport_width, lab_.viewport_height,         trace_choice(lab_)};
     const bool other_shaders = shader_desk_.take_changed(), other_textures = textures_changed();
     if (now == shown_ && !other_shaders && !other_textures && lab_.viewport_texture != 0)
         return;
@@ -314,6 +345,7 @@ void LabApp::draw_viewport() {
     viewport_.resize(now.width, now.height);
     const double aspect = static_cast<double>(now.width) / now.height;
     render::Scene scene = to_render(lab_.scene, lab_.shaders, lab_.snapshot.get(), aspect);
+    scene.ghost = lab_.timeline.ghost_snapshot.get();
     trace_view_.show(now.inside, scene);
     try {
         draw_report_ = renderer_.draw(scene, viewport_);

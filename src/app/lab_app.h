@@ -12,6 +12,7 @@
 #include "app/gui/imgui_layer.h"
 #include "app/gui/shader_desk.h"
 #include "app/pictures.h"
+#include "app/timeline_desk.h"
 #include "app/trace_view.h"
 #include "app/window.h"
 #include "render/renderer.h"
@@ -60,6 +61,9 @@ public:
 
 private:
     void set_scene(scene::Scene scene, std::filesystem::path file);
+    void show_scene(scene::Scene scene, std::filesystem::path file);
+    void take_opened();
+    void follow_timeline(const Published& now);
     render::Image read_window() const;
     void take_published();
     void tell_legend();
@@ -88,6 +92,7 @@ private:
     } drawn_; ///< the last shaders of the picture that could be drawn with
     History history_;
     sim::Description passed_on_;         ///< what the simulation thread has been told
+    std::uint64_t told_description_ = 0; ///< the ticket of that
     std::string refusal_;                ///< the simulation's last error that has been shown
     sim::Status told_ = sim::Status::ok; ///< what the user knows of the run's health
     bool watching_stability_ = false;
@@ -96,7 +101,7 @@ private:
 
     // What the viewport shows; while all of it stays the same, it is not drawn again.
     struct Shown {
-        std::shared_ptr<const sim::Snapshot> snapshot;
+        std::shared_ptr<const sim::Snapshot> snapshot, ghost;
         scene::Scene scene;
         int width = 0, height = 0;
         TraceChoice inside; ///< of a step
@@ -108,6 +113,7 @@ private:
     std::vector<std::string> texture_errors_; ///< that the user has been told of
     render::DrawReport draw_report_;
     std::unique_ptr<FileDialog> dialog_;
+    TimelineDesk timeline_desk_{simulation_, lab_};
     Pictures pictures_{renderer_, simulation_, lab_};
     ui::BrowseForTexture texture_wanted_; ///< what the dialog is for
     bool quit_ = false;

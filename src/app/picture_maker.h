@@ -18,8 +18,8 @@ public:
     int width() const { return target_.width(); }
     int height() const { return target_.height(); }
 
-    /// With a ghost where there is one (render::Scene::ghost), and with the inside of a step. Throws render::ShaderError
-    /// as the renderer does.
+    /// With a ghost where there is one (render::Scene::ghost), and with the inside of a step. Throws
+    /// render::ShaderError as the renderer does.
     render::Image draw(const scene::Scene& scene, const std::vector<scene::ShaderDeclaration>& shaders,
                        const sim::Snapshot* snapshot, const sim::Snapshot* ghost = nullptr,
                        const TraceChoice& inside = {});

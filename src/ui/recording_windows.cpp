@@ -132,7 +132,7 @@ void export_meshes_window(Lab& lab, bool wanted) {
     ImGui::BeginDisabled(files.folder.empty() || lab.timeline.job.has_value());
     if (ImGui::Button("Export###done")) {
         ask_timeline(lab,
-                     ExportMeshes{files.folder, files.ply ? MeshFormat::ply : MeshFormat::obj, range, files.every});
+                     ExportMeshes{files.folder, files.ply ? timeline::MeshFormat::ply : timeline::MeshFormat::obj, range, files.every});
         ImGui::CloseCurrentPopup();
     }
     ImGui::EndDisabled();

@@ -12,6 +12,7 @@
 #include "sim/step_trace.h"
 #include "timeline/breakpoints.h"
 #include "timeline/comparison.h"
+#include "timeline/mesh_sequence.h"
 #include "timeline/overview.h"
 
 namespace clothlab::ui {
@@ -75,11 +76,10 @@ struct SaveRecording {
     bool replace = false; ///< a file that is there already
 };
 struct CancelSaving {};
-enum class MeshFormat : std::uint8_t { obj, ply };
 /// One file for each frame of a range of the line shown.
 struct ExportMeshes {
     std::filesystem::path folder;
-    MeshFormat format = MeshFormat::obj;
+    timeline::MeshFormat format = timeline::MeshFormat::obj;
     timeline::FrameRange frames;
     int every = 1;
 };
@@ -95,9 +95,9 @@ struct TimelineWork {
     bool backwards = false; ///< plays towards the start
     std::optional<timeline::FrameRange> loop;
 
-    timeline::BranchId ghost = 0;                     ///< the branch that is drawn over the one shown; 0: none
-    std::shared_ptr<const sim::Snapshot> ghost_snapshot;  ///< at the playhead; none where the ghost has nothing so late
-    std::optional<timeline::Distance> ghost_distance; ///< at the playhead; none where the ghost has nothing so late
+    timeline::BranchId ghost = 0;                        ///< the branch that is drawn over the one shown; 0: none
+    std::shared_ptr<const sim::Snapshot> ghost_snapshot; ///< at the playhead; none where the ghost has nothing so late
+    std::optional<timeline::Distance> ghost_distance;    ///< at the playhead; none where the ghost has nothing so late
     std::shared_ptr<const std::vector<timeline::DistanceSample>> ghost_curve; ///< as far as it has been computed
     double ghost_progress = 0;                                                ///< of the curve, 0 to 1
 

@@ -29,6 +29,9 @@ public:
         last_ = scene;
     }
 
+    /// The scene is another one by no edit of the user's: there is nothing to undo.
+    void follow(const scene::Scene& scene) { last_ = scene; }
+
     bool can_undo() const { return !undo_.empty(); }
     bool can_redo() const { return !redo_.empty(); }
     /// The scene before the last edit; nothing when there is none.

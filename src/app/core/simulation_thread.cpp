@@ -29,20 +29,20 @@ std::uint64_t SimulationThread::send(Command command) {
     return ticket;
 }
 
-void SimulationThread::start(const sim::Description& description) {
-    send([description](SimulationWorker& w) { w.start(description); });
+std::uint64_t SimulationThread::start(const sim::Description& description) {
+    return send([description](SimulationWorker& w) { w.start(description); });
 }
 
-void SimulationThread::restart(const sim::Description& description) {
-    send([description](SimulationWorker& w) { w.restart(description); });
+std::uint64_t SimulationThread::restart(const sim::Description& description) {
+    return send([description](SimulationWorker& w) { w.restart(description); });
 }
 
 std::uint64_t SimulationThread::change(const sim::Description& description) {
     return send([description](SimulationWorker& w) { w.change(description); });
 }
 
-void SimulationThread::adopt(timeline::Timeline timeline, const timeline::Moment& at) {
-    send([timeline = std::move(timeline), at](SimulationWorker& w) { w.adopt(timeline, at); });
+std::uint64_t SimulationThread::adopt(timeline::Timeline timeline, const timeline::Moment& at) {
+    return send([timeline = std::move(timeline), at](SimulationWorker& w) { w.adopt(timeline, at); });
 }
 
 void SimulationThread::play(bool on, bool backwards) {
@@ -73,8 +73,12 @@ void SimulationThread::seek(std::uint64_t step) {
     send([step](SimulationWorker& w) { w.seek(step); });
 }
 
-std::uint64_t SimulationThread::with_player(std::function<void(timeline::Player&)> act) {
-    return send([act = std::move(act)](SimulationWorker& w) { w.act(act); });
+void SimulationThread::with_player(std::function<void(timeline::Player&)> act) {
+    send([act = std::move(act)](SimulationWorker& w) { w.act(act); });
+}
+
+void SimulationThread::note(std::function<void(timeline::Player&)> act) {
+    send([act = std::move(act)](SimulationWorker& w) { w.note(act); });
 }
 
 void SimulationThread::look_at(std::function<void(const timeline::Player&)> look) {

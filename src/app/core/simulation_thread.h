@@ -36,15 +36,15 @@ public:
 
     /// Forgets all runs and starts one of a description at time 0, paused or playing as before. A description without
     /// meaning is refused (Published::error) and the run under way goes on.
-    void start(const sim::Description& description);
+    std::uint64_t start(const sim::Description& description);
     /// Starts another run beside those there are.
-    void restart(const sim::Description& description);
+    std::uint64_t restart(const sim::Description& description);
     /// Changes the parameters of the run between two steps, before steps that were asked for earlier and are still to
-    /// be taken (timeline::Player::change); where can_change_live says no, restarts. Returns a ticket: what was
-    /// published when it had been taken up shows the run as it is described then.
+    /// be taken (timeline::Player::change); where can_change_live says no, restarts. As of the others that give one,
+    /// its ticket tells when it has been taken up (Published::taken).
     std::uint64_t change(const sim::Description& description);
     /// Another timeline in place of the present one, paused at a moment of it.
-    void adopt(timeline::Timeline timeline, const timeline::Moment& at);
+    std::uint64_t adopt(timeline::Timeline timeline, const timeline::Moment& at);
 
     void play(bool on, bool backwards = false);
     /// Pauses and takes this many steps, or goes to the end of this many frames.
@@ -59,7 +59,9 @@ public:
     /// To a step of the line shown. Of several that are asked for before the first can be gone to, the last one counts.
     void seek(std::uint64_t step);
     /// Does something with the runs, in their own thread, which pauses first; what it throws becomes Published::error.
-    std::uint64_t with_player(std::function<void(timeline::Player&)> act);
+    void with_player(std::function<void(timeline::Player&)> act);
+    /// The same for what changes neither the state nor where the runs go: without a pause.
+    void note(std::function<void(timeline::Player&)> act);
     /// Reads from the runs, in their own thread, which goes on afterwards as before.
     void look_at(std::function<void(const timeline::Player&)> look);
     /// Playing goes round in this range of frames of the line shown; none: to its end and on.

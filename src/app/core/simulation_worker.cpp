@@ -42,6 +42,11 @@ SimulationWorker::SimulationWorker() : player_({}, {.threads = most_threads()}) 
     restart_pace();
 }
 
+void SimulationWorker::fail(const std::exception& e) {
+    error_ = e.what();
+    error_shown_ = false;
+}
+
 void SimulationWorker::moved() {
     breakpoints_.reset();
     let_pass_.reset();
@@ -273,7 +278,7 @@ void SimulationWorker::play_back() {
             playing_ = false; // there is nothing further back
         }
     } catch (const std::exception& e) {
-        error_ = e.what();
+        fail(e);
         playing_ = false;
     }
     breakpoints_.reset();
@@ -291,7 +296,7 @@ void SimulationWorker::take_step() {
     try {
         counts = player_.step();
     } catch (const std::exception& e) { // a stored state that cannot be read
-        error_ = e.what();
+        fail(e);
         pause();
         return;
     }
@@ -353,7 +358,7 @@ void SimulationWorker::renew_ghost() {
     try {
         ghost_reader_.seek(player_.timeline(), *moment);
     } catch (const std::exception& e) {
-        error_ = e.what();
+        fail(e);
         ghost_ = 0;
         return;
     }
@@ -431,6 +436,7 @@ Published SimulationWorker::publish() {
     p.backwards = backwards_;
     p.real_time_factor = real_time_factor_;
     p.error = error_;
+    error_shown_ = true;
     p.hit = hit_;
     published_at_ = Clock::now();
     dirty_ = false;

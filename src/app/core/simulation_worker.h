@@ -40,6 +40,13 @@ public:
         if (player_.has_simulation())
             attempt([&] { act(player_); });
     }
+    /// The same without standing still.
+    template <class Act>
+    void note(Act act) {
+        settle_seek();
+        if (player_.has_simulation())
+            attempt([&] { act(player_); });
+    }
     void set_speed(double speed);
     void set_loop(std::optional<timeline::FrameRange> loop) { loop_ = loop; }
     void set_breakpoints(std::vector<timeline::Breakpoint> breakpoints);
@@ -74,13 +81,15 @@ private:
     void attempt(Task task) {
         try {
             task();
-            error_.clear();
+            if (error_shown_)
+                error_.clear();
         } catch (const std::exception& e) {
-            error_ = e.what();
+            fail(e);
         }
         moved();
     }
     void moved();
+    void fail(const std::exception& e);
     void begin_run();
     void pause();
     void settle_seek();
@@ -103,6 +112,7 @@ private:
     timeline::Player player_;
     std::uint64_t run_ = 0;
     std::string error_;
+    bool error_shown_ = true; ///< it has been published, and may be cleared by the next success
     bool playing_ = false, backwards_ = false;
     double speed_ = 1;
     std::deque<Wanted> wanted_;            ///< in the order in which they were asked for
