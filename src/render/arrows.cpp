@@ -10,10 +10,10 @@
 namespace clothlab::render {
 namespace {
 
-constexpr float bold = 3;            ///< px, of an arrow alone
-constexpr float rim = 1;             ///< px, dark, so that arrows are seen on light and dark alike
-constexpr float hidden_share = 0.3f; ///< of the colour where something lies in front
-constexpr float marker_size = 13;    ///< px
+constexpr float bold = 3;             ///< px, of an arrow alone
+constexpr float rim = 1;              ///< px, dark, so that arrows are seen on light and dark alike
+constexpr float hidden_share = 0.35f; ///< of the colour where something lies in front
+constexpr float marker_size = 13;     ///< px
 constexpr glm::vec3 marker_colour = colour(0xFFE14D);
 /// Corners of an arrow in shaders/arrows.vert: two triangles of the shaft, one of the head.
 constexpr GLsizei corners = 9;
@@ -49,22 +49,20 @@ std::size_t Arrows::draw(std::span<const Arrow> arrows, const std::optional<glm:
         const Program& program = shaders.program("arrows");
         program.use();
         program.set("width", drawn_.size() == 1 ? std::max(bold, width) : width);
-        const auto pass = [&](float share, float light, float grow, float depth) {
+        program.set("depth", 0.995f);
+        const auto pass = [&](float share, float grow) {
             program.set("share", share);
-            program.set("light", light);
             program.set("grow", grow);
-            program.set("depth", depth);
             glDrawArraysInstanced(GL_TRIANGLES, 0, corners, static_cast<GLsizei>(drawn_.size()));
         };
         glEnable(GL_BLEND);
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_GREATER);
-        pass(hidden_share, 1, 0, 0.995f);
+        pass(hidden_share, 0);
         glDepthMask(GL_TRUE);
         glDepthFunc(GL_LESS);
         glDisable(GL_BLEND);
-        pass(1, 0.02f, rim, 0.995f);
-        pass(1, 1, 0, 0.994f);
+        pass(1, rim);
     }
     if (marker && drawable(*marker))
         draw_marker(*marker, shaders);

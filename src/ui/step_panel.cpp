@@ -16,9 +16,6 @@
 namespace clothlab::ui {
 namespace {
 
-/// The longest arrow when arrows are fitted, in distances of neighbours: of all points, and of one alone.
-constexpr double fitted_length = 2, fitted_length_alone = 5;
-
 constexpr const char* stage_help[] = {
     "The forces that the step begins with: springs, gravity, wind, and damping where it is a force. They move nothing "
     "yet. Position-based methods move points by constraints in place of the springs' forces.",
@@ -101,11 +98,9 @@ void fit_arrows(Lab& lab, const sim::StepTrace& trace) {
     TimelineWork& work = lab.timeline;
     if (!work.fit_arrows || work.stage < 0)
         return;
-    const double longest = longest_effect(trace, static_cast<sim::Stage>(work.stage), work.picked);
     const double spacing = mean_spacing(lab.snapshot->columns, lab.snapshot->rows, trace.before);
-    const double wanted = (work.picked ? fitted_length_alone : fitted_length) * spacing;
-    if (longest > 0 && std::isfinite(wanted / longest))
-        work.arrow_scale = static_cast<float>(wanted / longest);
+    if (const auto scale = fitting_scale(trace, static_cast<sim::Stage>(work.stage), work.picked, spacing))
+        work.arrow_scale = *scale;
 }
 
 void arrow_row(Lab& lab, const sim::StepTrace& trace) {
@@ -120,8 +115,8 @@ void arrow_row(Lab& lab, const sim::StepTrace& trace) {
             "shorter than a pixel.");
     ImGui::SameLine();
     ImGui::Checkbox("Fit", &work.fit_arrows);
-    tooltip("The longest arrow of each stage is drawn twice as long as neighbours are apart; that of a picked point "
-            "five times.");
+    tooltip("Each stage's arrows are drawn one and a half times as long as neighbours are apart, in the root mean "
+            "square, and none over six times; a picked point's five times.");
     if (work.stage < 0) {
         ImGui::TextColored(colour::faint, "The state before the step: no arrows.");
         return;

@@ -46,11 +46,11 @@ constexpr Column columns[] = {
     {"RMS", "Root mean square of the displacements over all points; of the forces in the first row."},
     {"Largest", "The longest displacement of a point; the largest force in the first row."},
     {"At", "The column and row of that point."},
-    {"Kinetic", "Energy of motion if the step ended after the stage, in J."},
-    {"Spring", "Energy in the springs, in J."},
-    {"Gravity", "Energy in the uniform accelerations, in J, zero at the origin."},
-    {"Total", "The sum of the three, in J."},
-    {"Change", "What the stage added to the total, in J."},
+    {"Kinetic, J", "Energy of motion if the step ended after the stage."},
+    {"Spring, J", "Energy in the springs."},
+    {"Gravity, J", "Energy in the uniform accelerations, zero at the origin."},
+    {"Total, J", "The sum of the three."},
+    {"Change, J", "What the stage added to the total."},
     {"Max strain", "How much longer than at rest the most stretched spring is."},
 };
 

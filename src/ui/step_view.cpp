@@ -39,16 +39,6 @@ sim::Vec3 effect(const sim::StepTrace& trace, sim::Stage stage, std::uint32_t po
     return {f.x * share, f.y * share, f.z * share};
 }
 
-double longest_effect(const sim::StepTrace& trace, sim::Stage stage, std::optional<std::uint32_t> point) {
-    double longest = 0;
-    const auto points = static_cast<std::uint32_t>(trace.before.size() / 3);
-    for (std::uint32_t i = point.value_or(0); i < (point ? std::min(*point + 1, points) : points); ++i) {
-        const sim::Vec3 d = effect(trace, stage, i);
-        longest = std::max(longest, std::hypot(d.x, d.y, d.z)); // what is not a number counts as none
-    }
-    return longest;
-}
-
 double mean_spacing(int columns, int rows, std::span<const float> positions) {
     double sum = 0;
     std::size_t count = 0;
@@ -70,6 +60,27 @@ double mean_spacing(int columns, int rows, std::span<const float> positions) {
                 add(i, i - columns);
         }
     return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
+std::optional<float> fitting_scale(const sim::StepTrace& trace, sim::Stage stage, std::optional<std::uint32_t> point,
+                                   double spacing) {
+    const auto points = static_cast<std::uint32_t>(trace.before.size() / 3);
+    double longest = 0, squares = 0, count = 0;
+    for (std::uint32_t i = point.value_or(0); i < (point ? std::min(*point + 1, points) : points); ++i) {
+        const sim::Vec3 d = effect(trace, stage, i);
+        const double length = std::hypot(d.x, d.y, d.z);
+        if (!(length > 0) || !std::isfinite(length))
+            continue;
+        longest = std::max(longest, length);
+        squares += length * length;
+        ++count;
+    }
+    if (count == 0)
+        return std::nullopt;
+    const double scale =
+        point ? 5 * spacing / longest : std::min(1.5 * spacing / std::sqrt(squares / count), 6 * spacing / longest);
+    const auto result = static_cast<float>(scale);
+    return std::isfinite(result) && result > 0 ? std::optional(result) : std::nullopt;
 }
 
 int next_stage(const sim::StepTrace& trace, int stage, int direction) {

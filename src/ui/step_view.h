@@ -29,11 +29,14 @@ const sim::StepTrace* shown_trace(const Lab& lab);
 /// What a stage did to a point, in m: how far it moved it, or, for the forces, how far the point's force alone, acting
 /// throughout the step, moves it from rest as Verlet counts: f dt² / m.
 sim::Vec3 effect(const sim::StepTrace& trace, sim::Stage stage, std::uint32_t point);
-/// The longest effect of a stage on any point, in m, or on one; 0 where there is none.
-double longest_effect(const sim::StepTrace& trace, sim::Stage stage, std::optional<std::uint32_t> point);
-
 /// The mean distance of neighbours in rows and columns, in m.
 double mean_spacing(int columns, int rows, std::span<const float> positions);
+
+/// How many times longer than a stage's effects arrows are to be drawn so that they are seen and stay apart, on a cloth
+/// whose points are `spacing` m apart: 1.5 times as long as that in the root mean square over the points that it has an
+/// effect on, and none longer than six times. A point alone: five times. None where there is no effect.
+std::optional<float> fitting_scale(const sim::StepTrace& trace, sim::Stage stage, std::optional<std::uint32_t> point,
+                                   double spacing);
 
 /// The next stage that the model has in a direction, from one of sim::Stage or -1, the state before the step; itself
 /// where there is none.

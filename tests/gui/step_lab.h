@@ -1,0 +1,53 @@
+// The lab with the inside of a step on show: what the simulation's thread would publish is filled in by hand.
+#pragma once
+
+#include <imgui.h>
+
+#include <memory>
+#include <string>
+
+#include "gui/lab_driver.h"
+#include "sim/simulation.h"
+#include "ui/step_view.h"
+
+namespace clothlab::test {
+
+struct StepLab {
+    LabDriver driver;
+
+    explicit StepLab(const std::string& scene = "sphere-medium", int width = 1280, int height = 800)
+        : driver(scene, width, height) {}
+
+    ui::Lab& lab() { return driver.lab(); }
+    ui::TimelineWork& work() { return driver.lab().timeline; }
+    const sim::StepTrace& trace() { return *work().trace; }
+
+    /// Goes on by whole frames and then by single steps.
+    void go(int frames, int steps = 0) {
+        driver.app().simulation().step_frames(frames);
+        driver.app().simulation().step(steps);
+        driver.settle();
+    }
+    /// Opens the panel, in a corner of the window, and shows the inside of the step that comes next.
+    void look_into(ImVec2 at = {10, 30}, ImVec2 size = {620, 400}) {
+        lab().open[static_cast<std::size_t>(ui::PanelId::step)] = true;
+        driver.settle();
+        ImGui::SetWindowPos("###Inside a step", at);
+        ImGui::SetWindowSize("###Inside a step", size);
+        trace_again();
+    }
+    void trace_again() {
+        const auto run = sim::Simulation::create(lab().scene.simulation);
+        while (run->steps() < lab().snapshot->steps)
+            run->step();
+        work().trace = std::make_shared<const sim::StepTrace>(run->trace_step());
+        driver.settle();
+    }
+    void show(sim::Stage stage) {
+        work().stage = static_cast<int>(stage);
+        driver.settle();
+    }
+    const ui::PanelReport& panel() { return lab().report[static_cast<std::size_t>(ui::PanelId::step)]; }
+};
+
+} // namespace clothlab::test
