@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gui/lab_driver.h"
+#include "gui/small_scene.h"
 #include "sim/simulation.h"
 #include "ui/step_view.h"
 
@@ -15,9 +16,14 @@ namespace clothlab::test {
 struct StepLab {
     LabDriver driver;
 
-    explicit StepLab(const std::string& scene = "sphere-medium", int width = 1280, int height = 800)
-        : driver(scene, width, height) {}
+    /// On a small cloth that falls on a sphere.
+    StepLab() : driver("two-pins", 1000, 640) {
+        const TemporaryFolder folder;
+        driver.app().open(small_scene(folder));
+        driver.settle();
+    }
 
+    static constexpr std::size_t points = std::size_t{small_side} * small_side;
     ui::Lab& lab() { return driver.lab(); }
     ui::TimelineWork& work() { return driver.lab().timeline; }
     const sim::StepTrace& trace() { return *work().trace; }
@@ -29,7 +35,7 @@ struct StepLab {
         driver.settle();
     }
     /// Opens the panel, in a corner of the window, and shows the inside of the step that comes next.
-    void look_into(ImVec2 at = {10, 30}, ImVec2 size = {620, 400}) {
+    void look_into(ImVec2 at = {10, 30}, ImVec2 size = {720, 340}) {
         lab().open[static_cast<std::size_t>(ui::PanelId::step)] = true;
         driver.settle();
         ImGui::SetWindowPos("###Inside a step", at);
