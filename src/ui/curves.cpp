@@ -222,8 +222,9 @@ void set_axes(const TrackScale& scale, const Limits& y, float left, float top, f
         const ImVec2 size = ImGui::CalcTextSize(text);
         const float middle = top + static_cast<float>((y.high - tick) / (y.high - y.low)) * height;
         const float line = std::clamp(middle - size.y / 2, top - size.y * 0.2f, top + height - size.y * 0.8f);
-        ImGui::GetWindowDrawList()->AddText({left - size.x - font * 0.4f, line}, ImGui::GetColorU32(colour::faint),
-                                            text);
+        if (size.x + font * 0.4f < track_gutter())
+            ImGui::GetWindowDrawList()->AddText({left - size.x - font * 0.4f, line}, ImGui::GetColorU32(colour::faint),
+                                                text);
     }
 }
 
@@ -308,7 +309,7 @@ void draw_curves(Lab& lab, const FrameAxis& axis, const TrackScale& scale) {
         return;
     const float font = ImGui::GetFontSize(), line = ImGui::GetTextLineHeight() + font * 0.15f, gap = font * 0.3f;
     const float room = ImGui::GetContentRegionAvail().y;
-    const float height = std::floor(std::max(room / static_cast<float>(count) - line - gap, font * 2.4f));
+    const float height = std::floor(std::max(room / static_cast<float>(count) - line - gap, font * 1.6f));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, font * 0.15f});
     ImPlot::PushStyleVar(ImPlotStyleVar_PlotPadding, ImVec2(0, 0));
     ImPlot::PushStyleVar(ImPlotStyleVar_PlotMinSize, ImVec2(1, 1));

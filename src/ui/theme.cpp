@@ -94,6 +94,7 @@ void apply_theme(float scale) {
     c[ImGuiCol_CheckMark] = colour::accent;
     c[ImGuiCol_SliderGrab] = faded(colour::accent, 0.6f); // the value stays readable under it
     c[ImGuiCol_SliderGrabActive] = faded(colour::accent, 0.85f);
+    c[ImGuiCol_PlotHistogram] = faded(colour::accent, 0.8f);
     c[ImGuiCol_Separator] = grey(0.22f);
     c[ImGuiCol_SeparatorHovered] = c[ImGuiCol_SeparatorActive] = faded(colour::accent, 0.7f);
     c[ImGuiCol_ResizeGrip] = grey(0.22f);

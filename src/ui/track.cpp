@@ -50,7 +50,8 @@ void ruler(const TrackScale& scale, double first, double last, double least, con
         char text[48];
         std::snprintf(text, sizeof text, "%.*f%s", digits, i * step, unit);
         list->AddLine({x, top + font * 0.35f}, {x, bottom}, tint(colour::faint, 0.5f));
-        list->AddText({x + font * 0.2f, top}, tint(colour::faint), text);
+        if (x + font * 0.2f + ImGui::CalcTextSize(text).x < scale.right)
+            list->AddText({x + font * 0.2f, top}, tint(colour::faint), text);
     }
 }
 
@@ -100,6 +101,17 @@ void draw_band(const timeline::Overview& o, const FrameAxis& axis, const TrackSc
     list->PopClipRect();
 }
 
+/// Where the room for a bookmark's name ends, px.
+float next_icon(const std::vector<TrackPlace>& places, const TrackScale& scale, const TrackPlace& bookmark) {
+    float end = scale.right;
+    for (const TrackPlace& place : places)
+        if (&place != &bookmark && place.kind != TrackPlace::Kind::change && place.frame >= bookmark.frame) {
+            const bool flag = place.kind == TrackPlace::Kind::bookmark;
+            end = std::min(end, scale.x_of(place.frame) - (flag ? 2.f : ImGui::CalcTextSize(place.icon).x / 2 + 2));
+        }
+    return end;
+}
+
 void draw_places(const std::vector<TrackPlace>& places, const TrackScale& scale, const Lanes& lanes) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float font = ImGui::GetFontSize();
@@ -118,7 +130,10 @@ void draw_places(const std::vector<TrackPlace>& places, const TrackScale& scale,
         if (place.kind == TrackPlace::Kind::bookmark) { // a flag's pole is where the moment is
             list->AddLine({x, lanes.band}, {x, lanes.bottom}, tint(place.colour), 1.5f);
             list->AddText({x + 1, lanes.places}, tint(place.colour), place.icon);
-            list->AddText({x + size.x + font * 0.2f, lanes.places}, tint(colour::text), place.text.c_str());
+            const float begin = x + size.x + font * 0.2f, end = next_icon(places, scale, place);
+            list->PushClipRect({begin, lanes.places}, {std::max(end, begin), lanes.bottom}, true);
+            list->AddText({begin, lanes.places}, tint(colour::text), place.text.c_str());
+            list->PopClipRect();
             continue;
         }
         list->AddLine({x, lanes.band}, {x, lanes.places}, tint(place.colour, 0.9f));
@@ -247,8 +262,10 @@ void gutter(Lab& lab, const Lanes& lanes, float left) {
         const float width = ImGui::CalcTextSize(text).x;
         list->AddText({left + track_gutter() - width - font * 0.4f, y}, tint(colour::faint), text);
     };
-    label(lanes.seconds, "time");
-    label(lanes.frames, "frame");
+    if (track_gutter() > font * 4) {
+        label(lanes.seconds, "time");
+        label(lanes.frames, "frame");
+    }
     const ImVec2 after = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos({left, lanes.seconds + font * 0.2f});
     if (icon_button(ICON_FA_LEFT_RIGHT, "##fit",
@@ -278,7 +295,8 @@ void follow_playhead(Lab& lab, const FrameAxis& axis) {
 } // namespace
 
 float track_gutter() {
-    return std::floor(ImGui::GetFontSize() * 4.6f);
+    const float font = ImGui::GetFontSize();
+    return std::floor(font * (ImGui::GetWindowWidth() > font * 16 ? 4.6f : 2)); // the buttons alone
 }
 
 TrackScale draw_track(Lab& lab, const FrameAxis& axis) {

@@ -15,12 +15,13 @@ namespace {
 
 constexpr std::array speeds{1.0 / 64, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0, 2.0, 4.0, 8.0, 16.0};
 
-std::string speed_name(double speed) {
+std::string speed_name(double speed, bool brief = false) {
     char text[24];
+    const char* word = brief ? "" : " speed";
     if (speed < 1)
-        std::snprintf(text, sizeof text, "1/%.0f speed", 1 / speed);
+        std::snprintf(text, sizeof text, "1/%.0f%s", 1 / speed, word);
     else
-        std::snprintf(text, sizeof text, "%.0f x speed", speed);
+        std::snprintf(text, sizeof text, "%.0f x%s", speed, word);
     return text;
 }
 
@@ -31,7 +32,9 @@ float button_side() {
 /// Places groups side by side, and on the next line what does not fit any more.
 class Flow {
 public:
-    explicit Flow(float gap) : right_(ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x), gap_(gap) {}
+    /// `after` an item that is there already.
+    explicit Flow(float gap, bool after = false)
+        : right_(ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x), gap_(gap), first_(!after) {}
     void next(float width) {
         if (!first_ && ImGui::GetItemRectMax().x + gap_ + width <= right_)
             ImGui::SameLine(0, gap_);
@@ -40,7 +43,7 @@ public:
 
 private:
     float right_, gap_;
-    bool first_ = true;
+    bool first_;
 };
 
 struct Button {
@@ -55,7 +58,9 @@ bool press(Flow& flow, const Button& button) {
     flow.next(side);
     if (button.lit)
         ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.68f, 0.32f, 0.21f, 1));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y});
     const bool pressed = ImGui::Button((std::string(button.icon) + "###" + button.id).c_str(), {side, side});
+    ImGui::PopStyleVar();
     if (button.lit)
         ImGui::PopStyleColor();
     tooltip(button.help);
@@ -91,18 +96,20 @@ void buttons(Lab& lab, float gap) {
 }
 
 void restart(Lab& lab, bool text, float width) {
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y});
     if (ImGui::Button(text ? ICON_FA_ROTATE "  Restart###restart" : ICON_FA_ROTATE "###restart",
                       {width, button_side()}))
         lab.ask(Restart{});
+    ImGui::PopStyleVar();
     tooltip("Begins a new run from the start with the present parameters (R). The run so far stays under Branches. To "
             "see its start again, jump to the start (Home).");
 }
 
-void speed_list(Lab& lab, float width) {
+void speed_list(Lab& lab, float width, bool brief) {
     ImGui::SetNextItemWidth(width);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                         {ImGui::GetStyle().FramePadding.x, (button_side() - ImGui::GetFontSize()) / 2});
-    if (ImGui::BeginCombo("##speed", speed_name(lab.speed).c_str(), ImGuiComboFlags_HeightLarge)) {
+    if (ImGui::BeginCombo("##speed", speed_name(lab.speed, brief).c_str(), ImGuiComboFlags_HeightLarge)) {
         for (const double speed : speeds)
             if (ImGui::Selectable(speed_name(speed).c_str(), speed == lab.speed))
                 lab.ask(SetSpeed{speed});
@@ -113,7 +120,7 @@ void speed_list(Lab& lab, float width) {
 }
 
 /// With as many digits as the line's end needs, so that the row does not move.
-std::string moment_text(const Lab& lab, bool widest) {
+std::string moment_text(const Lab& lab, bool widest, bool brief) {
     const timeline::Playhead& p = lab.timeline.playhead;
     unsigned long long frame = p.frame;
     int substep = p.substep, substeps = p.substeps, digits = 1;
@@ -130,8 +137,8 @@ std::string moment_text(const Lab& lab, bool widest) {
     const int of = static_cast<int>(std::to_string(substeps).size());
     const int seconds = static_cast<int>(std::to_string(static_cast<long long>(end_time)).size()) + 4;
     char text[96];
-    std::snprintf(text, sizeof text, "%*.3f s  frame %*llu + %*d/%d", std::max(seconds, 6), widest ? end_time : time,
-                  std::max(digits, 3), frame, of, substep, substeps);
+    std::snprintf(text, sizeof text, "%*.3f s  %s%*llu + %*d/%d", std::max(seconds, 6), widest ? end_time : time,
+                  brief ? "" : "frame ", std::max(digits, 3), frame, of, substep, substeps);
     return text;
 }
 
@@ -140,6 +147,26 @@ float mono_width(const std::string& text) {
     const float width = ImGui::CalcTextSize(text.c_str()).x;
     ImGui::PopFont();
     return width;
+}
+
+/// In the fixed-width font; in pieces below each other where there is no room for the whole.
+void moment_cell(const Lab& lab, bool brief, float room) {
+    std::string text = moment_text(lab, false, brief);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float font = ImGui::GetFontSize();
+    const bool whole = mono_width(text) <= room;
+    if (!whole)
+        text = text.substr(text.find_first_not_of(' '));
+    for (const char* gap : {"  ", " + "})
+        if (const std::size_t cut = text.find(gap); cut != std::string::npos && !whole)
+            text.replace(cut, 1, "\n");
+    ImGui::PushFont(fonts().mono, 0);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    ImGui::GetWindowDrawList()->AddText({at.x, at.y + (whole ? (button_side() - font) / 2 : 0)},
+                                        ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+    ImGui::PopFont();
+    ImGui::Dummy({size.x, std::max(size.y, button_side())});
+    tooltip("Simulated time, whole frames since the start, and the substeps taken of the next frame");
 }
 
 /// Seconds before the line's end that can be gone back to without a gap.
@@ -185,8 +212,10 @@ void cache_bar(Lab& lab, float width) {
     if (wide)
         std::snprintf(text, sizeof text, ICON_FA_DATABASE " %.0f s", reach(o, axis));
     const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y});
     if (ImGui::Button((std::string(text) + "###cache").c_str(), {width, button_side()}))
         ImGui::OpenPopup("cache");
+    ImGui::PopStyleVar();
     const float share = o.budget > 0 ? std::min(1.f, static_cast<float>(o.memory) / static_cast<float>(o.budget)) : 0;
     const float line = std::max(2.f, button_side() / 9);
     ImDrawList* list = ImGui::GetWindowDrawList();
@@ -223,50 +252,43 @@ void change_speed(Lab& lab, bool faster) {
 
 void draw_transport(Lab& lab) {
     const float font = ImGui::GetFontSize(), gap = std::floor(font / 5), space = font * 0.7f;
-    const float group = 9 * button_side() + 8 * gap;
-    const float speed = font * 6.4f, moment = mono_width(moment_text(lab, true));
-    const ImVec2 padding = ImGui::GetStyle().FramePadding;
-    const float with_text = ImGui::CalcTextSize(ICON_FA_ROTATE "  Restart").x + 2 * padding.x;
-    const float room = ImGui::GetContentRegionAvail().x;
-    // What has a text loses it where room is short; what then does not fit goes to another line.
-    float restart_width = with_text, cache_width = font * 5;
-    const auto total = [&] { return group + restart_width + speed + moment + cache_width + 4 * space; };
-    if (total() > room)
+    const float group = 9 * button_side() + 8 * gap, room = ImGui::GetContentRegionAvail().x;
+    const float with_text = ImGui::CalcTextSize(ICON_FA_ROTATE "  Restart").x + 2 * ImGui::GetStyle().FramePadding.x;
+    // Texts become shorter where that makes a single line of it; otherwise there are several.
+    float restart_width = with_text, cache_width = font * 5, speed = font * 6.4f;
+    bool brief = false;
+    float moment = mono_width(moment_text(lab, true, brief));
+    const auto too_wide = [&] { return group + restart_width + speed + moment + cache_width + 4 * space > room; };
+    if (too_wide())
         restart_width = button_side();
-    if (total() > room)
+    if (too_wide())
         cache_width = button_side();
+    if (too_wide())
+        speed = font * 4.6f;
+    if (too_wide()) {
+        brief = true;
+        moment = mono_width(moment_text(lab, true, brief));
+    }
+    if (too_wide()) {
+        brief = false;
+        moment = mono_width(moment_text(lab, true, brief));
+        cache_width = font * 5;
+        speed = font * 6.4f;
+    }
 
-    if (room < group) // not even the buttons
-        buttons(lab, gap);
-    else {
+    if (room >= group)
         ImGui::BeginGroup();
-        buttons(lab, gap);
+    buttons(lab, gap);
+    if (room >= group)
         ImGui::EndGroup();
-    }
-    Flow flow(space);
-    flow.next(0);
-    const auto place = [&](float width) { flow.next(width); };
-    place(restart_width);
+    Flow flow(space, true);
+    flow.next(restart_width);
     restart(lab, restart_width == with_text, restart_width);
-    place(std::min(speed, room));
-    speed_list(lab, std::min(speed, room));
-    place(moment);
-    ImGui::BeginGroup();
-    const float drop = (button_side() - font) / 2;
-    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + drop);
-    if (room >= moment)
-        mono_text("%s", moment_text(lab, false).c_str());
-    else { // in two lines
-        const std::string text = moment_text(lab, false);
-        const std::size_t cut = text.find("  frame");
-        mono_text("%s", text.substr(text.find_first_not_of(' '), cut - text.find_first_not_of(' ')).c_str());
-        ImGui::PushTextWrapPos(0);
-        mono_text("%s", text.substr(cut + 2).c_str());
-        ImGui::PopTextWrapPos();
-    }
-    ImGui::EndGroup();
-    tooltip("Simulated time, whole frames since the start, and the substeps taken of the next frame");
-    place(cache_width);
+    flow.next(speed);
+    speed_list(lab, std::min(speed, room), speed < font * 6);
+    flow.next(moment);
+    moment_cell(lab, brief, room);
+    flow.next(cache_width);
     cache_bar(lab, cache_width);
 }
 

@@ -243,7 +243,9 @@ void tooltip(const std::string& text) {
 bool icon_button(const char* icon, const char* id, const char* help, bool enabled) {
     const float side = ImGui::GetFrameHeight();
     ImGui::BeginDisabled(!enabled);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y}); // in the middle
     const bool pressed = ImGui::Button((std::string(icon) + id).c_str(), {side, side});
+    ImGui::PopStyleVar();
     ImGui::EndDisabled();
     tooltip(help);
     return pressed;

@@ -41,7 +41,9 @@ TEST_CASE("Every panel that is open at the start is there when the lab opens, an
             CHECK_FALSE(panel.drawn);
             continue;
         }
-        CHECK(panel.drawn);
+        CHECK((panel.drawn || panel.behind)); // another tab is in front
+        if (panel.behind)
+            continue;
         CHECK(panel.width > 100);
         CHECK(panel.height > 50);
     }
@@ -84,20 +86,18 @@ TEST_CASE("N goes one frame further, Shift+N one substep, R back to the start") 
 TEST_CASE("The transport's buttons do the same") {
     LabDriver driver;
     REQUIRE(driver.act([](ImGuiTestContext* user) {
-        user->SetRef("###Transport");
-        user->ItemClick(ICON_FA_FORWARD_STEP "  Frame");
-        user->ItemClick(ICON_FA_CHEVRON_RIGHT "  Substep");
+        user->SetRef("###Timeline");
+        user->ItemClick("###frame");
+        user->ItemClick("###substep");
     }));
     CHECK(driver.lab().snapshot->steps == 31);
-    REQUIRE(
-        driver.act([](ImGuiTestContext* user) { user->ItemClick("###Transport/" ICON_FA_BACKWARD_STEP "  Restart"); }));
+    REQUIRE(driver.act([](ImGuiTestContext* user) { user->ItemClick("###Timeline/###restart"); }));
     CHECK(driver.lab().snapshot->steps == 0);
 }
 
 TEST_CASE("Space plays also after a click on a button, and does not click it again") {
     LabDriver driver;
-    REQUIRE(
-        driver.act([](ImGuiTestContext* user) { user->ItemClick("###Transport/" ICON_FA_FORWARD_STEP "  Frame"); }));
+    REQUIRE(driver.act([](ImGuiTestContext* user) { user->ItemClick("###Timeline/###frame"); }));
     REQUIRE(driver.act([](ImGuiTestContext* user) {
         user->KeyPress(ImGuiKey_Space);
         user->Yield(2);
@@ -345,7 +345,7 @@ TEST_CASE("At twice the scale everything is twice as large, the default layout t
     const auto once = reports(1), twice = reports(2);
     for (std::size_t i = 0; i < ui::panel_count; ++i) {
         INFO(once[i].name);
-        CHECK(twice[i].drawn == ui::open_at_start[i]);
+        CHECK((twice[i].drawn || twice[i].behind) == ui::open_at_start[i]);
         CHECK(std::abs(twice[i].width - 2 * once[i].width) < 8);
         CHECK(std::abs(twice[i].height - 2 * once[i].height) < 8);
     }

@@ -109,14 +109,15 @@ std::shared_ptr<timeline::Overview> made_up_overview() {
 void show_made_up_timeline(ui::Lab& lab, std::uint64_t frame) {
     ui::TimelineWork& t = lab.timeline;
     t.overview = made_up_overview();
-    t.playhead = {{2, frame * substeps}, frame, 0, static_cast<int>(substeps), static_cast<double>(frame) / 90,
+    t.playhead = {{2, frame * substeps},  frame, 0, static_cast<int>(substeps), static_cast<double>(frame) / 90,
                   frame == made_up_frames};
     t.ghost = 1;
     t.ghost_distance = timeline::Distance{0.0123, 0.045};
     auto curve = std::make_shared<std::vector<timeline::DistanceSample>>();
     for (std::uint64_t f = 400; f <= 1200; ++f) {
         const double s = static_cast<double>(f - 400) / 90;
-        curve->push_back({f, static_cast<double>(f) / 90,
+        curve->push_back({f,
+                          static_cast<double>(f) / 90,
                           {0.015 * (1 - std::exp(-s)), 0.05 * (1 - std::exp(-2 * s)) + 0.004 * std::sin(7 * s)}});
     }
     t.ghost_curve = curve;
