@@ -141,7 +141,7 @@ TEST_CASE("validate says what is in a recording, and what is missing from a dama
     const std::string file = (folder / "a.clothrec").string();
     timeline::save_recording(busy_recording(5, 6, sim::Precision::double_precision), file);
     const std::string out = succeeded({"validate", file});
-    for (const std::string part :
+    for (const std::string& part :
          {file + ": ok\n", std::string("  Run 1: frames 0 to "), std::string("5 x 6 points"),
           std::string("double precision"), std::string(", from Run 1"), std::string("bookmark \"half-way\": frame ")})
         REQUIRE(out.find(part) != std::string::npos);

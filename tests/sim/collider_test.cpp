@@ -185,18 +185,22 @@ TEST_CASE("Colliders act in scene order") {
     REQUIRE_THAT(y, WithinAbs(0.4 + 1e-4, 1e-15));
 }
 
-TEST_CASE("Contacts are counted by what is touched, whatever computes them") {
+TEST_CASE("Contacts are counted by what is touched, whatever computes them", "[threads]") {
     const auto sphere_and_plane = [](sim::FrictionRule friction, const sim::Execution& execution) {
         sim::Description description = bare_cloth(20, 20);
         description.rules.friction = friction;
+        description.cloth.enable_structural = description.cloth.enable_shearing = description.cloth.enable_bending =
+            false;
         description.colliders = {sim::Sphere{centre, radius, 0.1}, sim::Plane{{0, -5, 0}, {0, 1, 0}, 0}};
         Sheet<float> sheet(description, execution);
         for (std::size_t i = 0; i < sheet.points(); ++i)
             sheet.place(i, {0, 5, 0}); // off everything
         for (std::size_t i = 0; i < 3; ++i)
-            sheet.put(sheet.state.position, i, {centre.x, centre.y + 0.1 + 0.1 * static_cast<double>(i), centre.z});
-        for (std::size_t i = 100; i < 107; ++i)
-            sheet.put(sheet.state.position, i, {2, -5.1, 2});
+            sheet.place(i, {centre.x, centre.y + 0.1 + 0.1 * static_cast<double>(i), centre.z});
+        for (std::size_t i = 100; i < 107; ++i) { // they cross the plane in this step
+            sheet.put(sheet.state.previous, i, {2, -4.95, 2});
+            sheet.put(sheet.state.position, i, {2, -4.98, 2});
+        }
         return sheet.step();
     };
     for (const sim::FrictionRule friction : {sim::FrictionRule::cs184, sim::FrictionRule::physical}) {

@@ -18,6 +18,7 @@ struct Branches {
         description.cloth.pinned = {{0, 0}, {6, 0}};
         description.cloth.ks = 2000;
         description.stepping.substeps = 4;
+        description.stepping.integrator = sim::IntegratorId::velocity_verlet; // keeps its speed whatever the step
         softer = description;
         softer.cloth.ks *= share;
         softer.stepping.substeps = substeps;

@@ -84,7 +84,7 @@ TEST_CASE("No seek becomes slower than it may: then the oldest states are droppe
         INFO(frame_s << " s for a frame");
         REQUIRE(timeline.memory() <= 20'000);
         const Branch& branch = timeline.branches()[0];
-        REQUIRE(widest_gap(branch) <= std::max(1.0, std::floor(0.01 / frame_s)));
+        REQUIRE(static_cast<double>(widest_gap(branch)) <= std::max(1.0, std::floor(0.01 / frame_s)));
         REQUIRE(timeline.reachable({branch.id, branch.end})); // the newest
         REQUIRE(timeline.reachable({branch.id, 0}));          // a start costs nothing
         REQUIRE_FALSE(timeline.reachable({branch.id, 100 * 30}));

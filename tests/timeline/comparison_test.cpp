@@ -29,7 +29,7 @@ void require_same(const std::vector<DistanceSample>& a, const std::vector<Distan
     REQUIRE(a.size() == b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
         CHECK(a[i].frame == b[i].frame);
-        CHECK(a[i].time == b[i].time);
+        CHECK(std::abs(a[i].time - b[i].time) < 1e-12);
         CHECK(a[i].distance.rms == b[i].distance.rms);
         CHECK(a[i].distance.max == b[i].distance.max);
     }
