@@ -74,6 +74,7 @@ public:
         Workspace<Real> work = make_workspace(model_, {.instructions = work_.instructions});
         work.arrays = work_.arrays; // with the forces that the step would not compute again
         work.force_of_step = work_.force_of_step;
+        work.solver = work_.solver; // a matrix of 40 000 points takes a second to factor
         sim::step(model_, state, work, &recorder);
         return trace;
     }

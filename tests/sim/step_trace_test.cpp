@@ -129,6 +129,16 @@ TEST_CASE("A run that is looked into before every step is the one that nobody lo
     }
 }
 
+TEST_CASE("What a step need not compute again, looking into it does not either") {
+    sim::Description description = bare_cloth(6, 5);
+    description.stepping.integrator = sim::IntegratorId::velocity_verlet;
+    const auto run = sim::Simulation::create(description);
+    for (const std::size_t evaluations : {2u, 1u, 1u}) {
+        CHECK(run->trace_step().counts.force_evaluations == evaluations);
+        CHECK(run->step().force_evaluations == evaluations);
+    }
+}
+
 TEST_CASE("A run with a trouble has the same one when it is looked into") {
     sim::Description description = busy_scene(sim::IntegratorId::course_verlet, sim::Precision::single_precision);
     description.cloth.ks = 5e6;
