@@ -229,7 +229,7 @@ TEST_CASE("A recording that cannot be written says why, leaves the old one whole
     REQUIRE(timeline::load_recording(file).damage.empty());
 }
 
-TEST_CASE("Saving reports how much is done and can be cancelled at any moment; the old file stays") {
+TEST_CASE("Saving reports how much is done and can be cancelled at any moment, and the old file stays") {
     const TemporaryFolder folder;
     const auto file = folder / "a.clothrec";
     const timeline::Recording recording = busy_recording(5, 5, single);
