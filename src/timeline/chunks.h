@@ -99,6 +99,7 @@ public:
     /// As many bytes as there are, at most that many. Throws std::runtime_error with a sentence.
     std::vector<std::byte> read(std::uint64_t at, std::size_t count) const;
     std::uint64_t size() const { return size_; } ///< bytes, when it was opened
+    const std::string& name() const { return name_; }
 
 private:
     std::string name_;

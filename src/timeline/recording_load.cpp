@@ -10,11 +10,12 @@ namespace clothlab::timeline {
 namespace {
 
 struct InFile final : StoredState {
-    InFile(std::shared_ptr<const SharedFile> f, std::uint64_t a, std::size_t c) : file(std::move(f)), at(a), count(c) {}
+    InFile(std::shared_ptr<const SharedFile> f, std::uint64_t a, std::span<const std::byte> bytes)
+        : file(std::move(f)), at(a), count(bytes.size()), checksum(sim::checksum(bytes)) {}
     std::vector<std::byte> compressed() const override {
         std::vector<std::byte> bytes = file->read(at, count);
-        if (bytes.size() != count)
-            throw std::runtime_error("a recording became shorter while it was in use");
+        if (bytes.size() != count || sim::checksum(bytes) != checksum)
+            throw std::runtime_error(file->name() + ": the recording was changed while it was in use");
         return bytes;
     }
     std::size_t memory() const override { return sizeof *this; }
@@ -22,6 +23,7 @@ struct InFile final : StoredState {
     std::shared_ptr<const SharedFile> file;
     std::uint64_t at;
     std::size_t count;
+    std::uint64_t checksum;
 };
 
 void require(bool right, const char* what) {
@@ -274,7 +276,7 @@ private:
             throw Damage(e.what());
         }
         const std::size_t before = chunk.payload.size() - payload.left();
-        return std::make_shared<InFile>(reader_.file(), chunk.payload_at + before, payload.left());
+        return std::make_shared<InFile>(reader_.file(), chunk.payload_at + before, payload.rest());
     }
 
     void take_mark(Unpacker& payload) {

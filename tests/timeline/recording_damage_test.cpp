@@ -40,13 +40,20 @@ timeline::Recording tiny_recording() {
     recording.scene.simulation = recorded_cloth(3, 3);
     timeline::Player player;
     player.start(recording.scene.simulation);
+    sim::Description changed = recording.scene.simulation;
+    const auto change = [&](double ks) {
+        changed.cloth.ks = ks;
+        player.change(changed);
+    };
     for (int n = 0; n < 9; ++n)
         player.step();
+    change(400); // within a frame
+    for (int n = 0; n < 3; ++n)
+        player.step();
+    change(500); // at a frame's end, and at the line's
     player.bookmark("here", {});
     player.seek(5);
-    sim::Description changed = recording.scene.simulation;
-    changed.cloth.ks = 200;
-    player.change(changed);
+    change(200);
     for (int n = 0; n < 4; ++n)
         player.step();
     recording.timeline = player.timeline();
@@ -69,6 +76,13 @@ int states_left(const std::filesystem::path& file, const States& whole) {
             REQUIRE(branch.keyframes.back().until == branch.end);
             REQUIRE((branch.changes.empty() || branch.changes.back().step <= branch.end));
             REQUIRE(branch.clocks.front().step == branch.fork_step);
+            for (const timeline::Keyframe& keyframe : branch.keyframes) {
+                const sim::Description* in_force = branch.start.get();
+                for (const timeline::Change& change : branch.changes)
+                    if (change.step <= keyframe.step)
+                        in_force = change.description.get();
+                REQUIRE(*keyframe.description == *in_force);
+            }
         }
         return static_cast<int>(left.size());
     } catch (const timeline::RecordingError& e) {
@@ -119,6 +133,23 @@ TEST_CASE("A recording with any bit flipped is refused, or loaded up to it with 
         put(file, at, bytes[at]);
     }
     REQUIRE(most == static_cast<int>(whole.size())); // the end chunk alone was hit
+}
+
+TEST_CASE("A state that was changed in the file after it was loaded is not shown as if it were right") {
+    const TemporaryFolder folder;
+    const auto file = folder / "a.clothrec";
+    timeline::save_recording(tiny_recording(), file);
+    const timeline::Recording loaded = timeline::load_recording(file);
+    const timeline::Branch& branch = loaded.timeline.branches().at(0);
+    const std::vector<std::byte> state = branch.keyframes.back().state->compressed();
+    const std::string bytes = read_file(file);
+    const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(state.data()), state.size()));
+    put(file, at + state.size() / 2, static_cast<char>(~bytes[at + state.size() / 2]));
+    timeline::Reader reader;
+    REQUIRE_THROWS_AS(reader.seek(loaded.timeline, {branch.id, branch.end}), std::runtime_error);
+    std::filesystem::resize_file(file, at);
+    REQUIRE_THROWS_AS(reader.seek(loaded.timeline, {branch.id, branch.end}), std::runtime_error);
+    reader.seek(loaded.timeline, {branch.id, 5});
 }
 
 TEST_CASE("The sentence about a cut recording says what is missing") {
