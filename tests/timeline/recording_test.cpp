@@ -153,15 +153,15 @@ TEST_CASE("A loaded recording is played on, edited and saved as if it had never 
     other.cloth.ks = 700;
     timeline::Player straight, resumed;
     straight.start(start);
-    for (int n = 0; n < 8; ++n)
+    for (int n = 0; n < 4; ++n)
         straight.step();
-    REQUIRE(straight.timeline().branches()[0].marks.back().step == 8); // the end itself is marked
+    REQUIRE(straight.timeline().branches()[0].marks.back().step == 4); // the end itself is marked
     timeline::save_recording({{}, straight.timeline(), straight.moment(), {}}, folder / "a.clothrec");
     timeline::Recording loaded = timeline::load_recording(folder / "a.clothrec");
     require_same(straight.timeline(), loaded.timeline);
     resumed.adopt(std::move(loaded.timeline), loaded.at);
     for (timeline::Player* player : {&straight, &resumed}) {
-        for (int n = 0; n < 7; ++n)
+        for (int n = 0; n < 12; ++n)
             player->step();
         player->seek(11);
         player->change(other);
