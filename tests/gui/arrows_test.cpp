@@ -89,8 +89,16 @@ TEST_CASE("Arrows without a length, with ends that are no numbers, or behind the
     const std::vector<render::Arrow> behind{{{0, 3, 0}, {0.3f, 4, 0}, green}};
     scene.arrows = behind;
     CHECK(studio.draw(scene).rgba == without.rgba);
-    // One that begins in front of the eye and ends behind it is cut off, and drawn.
-    CHECK(drawn(studio, {{{0.2f, 0, 0.2f}, {0.1f, 3, 0.1f}, green}}).pixels > 10);
+    // One that begins in front of the eye and ends behind it leaves the picture on its own side.
+    const std::vector<render::Arrow> passing{{{0.2f, 0, 0.2f}, {0.1f, 3, 0.1f}, green}};
+    scene.arrows = passing;
+    const render::Image passed = studio.draw(scene);
+    int own_side = 0, other_side = 0;
+    for (int y = 0; y < passed.height; ++y)
+        for (int x = 0; x < passed.width; ++x)
+            (x > 80 && y > 45 ? own_side : other_side) += differs(passed, without, x, y) ? 1 : 0;
+    CHECK(own_side > 20);
+    CHECK(other_side == 0);
     // One that comes straight to the eye is a head.
     CHECK(drawn(studio, {{{0, 0, 0}, {0, 0.5f, 0}, green}}).pixels > 0);
 }
