@@ -93,11 +93,14 @@ TEST_CASE("Arrows without a length, with ends that are no numbers, or behind the
     const std::vector<render::Arrow> passing{{{0.2f, 0, 0.2f}, {0.1f, 3, 0.1f}, green}};
     scene.arrows = passing;
     const render::Image passed = studio.draw(scene);
-    int own_side = 0, other_side = 0;
+    int own_side = 0, other_side = 0, at_the_edge = 0;
     for (int y = 0; y < passed.height; ++y)
         for (int x = 0; x < passed.width; ++x)
             (x > 80 && y > 45 ? own_side : other_side) += differs(passed, without, x, y) ? 1 : 0;
+    for (int x = 80; x < passed.width; ++x)
+        at_the_edge += differs(passed, without, x, passed.height - 1) ? 1 : 0;
     CHECK(own_side > 20);
+    CHECK(at_the_edge > 0);
     CHECK(other_side == 0);
     // One that comes straight to the eye is a head.
     CHECK(drawn(studio, {{{0, 0, 0}, {0, 0.5f, 0}, green}}).pixels > 0);
