@@ -35,8 +35,7 @@ bool kind_combo(Breakpoint& b) {
 }
 
 bool has_value(BreakpointKind kind) {
-    return kind != BreakpointKind::sphere_contact && kind != BreakpointKind::plane_contact &&
-           kind != BreakpointKind::self_contact;
+    return *shown_value(kind).unit != '\0';
 }
 
 bool has_point(BreakpointKind kind) {
@@ -148,9 +147,8 @@ Edit row(Breakpoint& b, const sim::Cloth& cloth, bool hit) {
 } // namespace
 
 ShownValue shown_value(BreakpointKind kind) {
-    if (kind == BreakpointKind::max_strain)
-        return {100, "%"};
-    return {1, timeline::breakpoint_info()[static_cast<std::size_t>(kind)].unit};
+    const char* unit = timeline::breakpoint_info()[static_cast<std::size_t>(kind)].unit;
+    return {*unit == '%' ? 100.0 : 1.0, unit};
 }
 
 void draw_breakpoints(Lab& lab) {
