@@ -28,7 +28,7 @@ std::vector<Control> controls(PanelDriver& driver, const char* window, ImRect& r
         user->WindowFocus(window);
         user->Yield(3);
         ImGuiTestItemList items;
-        user->GatherItems(&items, window, 2);
+        user->GatherItems(&items, window, 99);
         for (const ImGuiTestItemInfo& item : items)
             found.push_back({item.DebugLabel, item.RectFull});
         room = user->GetWindowByRef(window)->InnerRect;
@@ -49,7 +49,7 @@ TEST_CASE("Nothing in the timeline's panels is cut off at the sides or covers an
         INFO(window);
         ImRect room;
         const std::vector<Control> all = controls(driver, window, room);
-        CHECK(all.size() > 10);
+        CHECK(all.size() >= 9);
         for (std::size_t i = 0; i < all.size(); ++i) {
             INFO(all[i].name);
             CHECK(all[i].rect.Min.x >= room.Min.x);
@@ -59,7 +59,7 @@ TEST_CASE("Nothing in the timeline's panels is cut off at the sides or covers an
                 ImRect common = all[i].rect;
                 common.ClipWith(all[j].rect);
                 // A plot and what takes its mouse are at the same place.
-                const bool same = all[i].rect.Min == all[j].rect.Min && all[i].rect.Max == all[j].rect.Max;
+                const bool same = all[i].rect.Contains(all[j].rect) && all[j].rect.Contains(all[i].rect);
                 CHECK((same || common.GetWidth() <= 0 || common.GetHeight() <= 0));
             }
         }

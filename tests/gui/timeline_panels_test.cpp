@@ -165,6 +165,7 @@ TEST_CASE("A breakpoint's kind, point and side of the step are chosen; a point o
     const auto& gain = timeline::breakpoint_info()[static_cast<std::size_t>(BreakpointKind::energy_gain)];
     auto list = set_by(p.driver, [&](ImGuiTestContext* user) {
         user->ItemClick("###Moments/breakpoints/$$0/##kind");
+        user->Yield(2);
         user->ItemClick(("//$FOCUSED/" + std::string(gain.name)).c_str());
     });
     CHECK(list[0].kind == BreakpointKind::energy_gain);
@@ -238,7 +239,7 @@ TEST_CASE("Meshes are exported from the loop or the whole line, in either format
     auto exported = driver.asked<ui::ExportMeshes>();
     REQUIRE(exported.size() == 1);
     CHECK(exported[0].folder == "fold-meshes");
-    CHECK(exported[0].format == ui::MeshFormat::ply);
+    CHECK(exported[0].format == timeline::MeshFormat::ply);
     CHECK(exported[0].frames.first == 900);
     CHECK(exported[0].frames.last == 1400);
     CHECK(exported[0].every == 5);
