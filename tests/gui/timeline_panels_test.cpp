@@ -173,8 +173,11 @@ TEST_CASE("A breakpoint's kind, point and side of the step are chosen; a point o
     list = set_by(p.driver,
                   [](ImGuiTestContext* user) { user->ItemInputValue("###Moments/breakpoints/$$1/##point/$$1", 500); });
     CHECK(list[1].point == sim::GridPoint{49, 49});
-    list = set_by(p.driver,
-                  [](ImGuiTestContext* user) { user->ComboClick("###Moments/breakpoints/$$1/##side/after the step"); });
+    list = set_by(p.driver, [](ImGuiTestContext* user) {
+        user->ItemClick("###Moments/breakpoints/$$1/##side");
+        user->Yield(2);
+        user->ItemClick("//$FOCUSED/after the step");
+    });
     CHECK_FALSE(list[1].before);
 }
 
