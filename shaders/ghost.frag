@@ -17,11 +17,11 @@ float line(float x, float width) { return 1.0 - smoothstep(0.5 * width - 0.5, 0.
 void main() {
     vec2 px = max(fwidth(surface_uv), 1e-6);
     vec2 from_line = (surface_uv * cells - round(surface_uv * cells)) / (cells * px);
-    float grid = max(line(from_line.x, 1.0), line(from_line.y, 1.0));
+    float grid = max(line(from_line.x, 1.5), line(from_line.y, 1.5));
     vec2 from_border = (0.5 - abs(surface_uv - 0.5)) / px;
     float border = max(line(from_border.x, 5.0), line(from_border.y, 5.0));   // half of it is beyond the cloth
     float facing = abs(dot(normalize(world_normal), direction_to_eye(world_position)));
     float silhouette = 1.0 - smoothstep(0.1, 0.35, facing);
-    float opacity = max(fill, lines * max(border, inner * max(0.8 * silhouette, 0.65 * grid)));
+    float opacity = max(fill, lines * max(border, inner * max(0.8 * silhouette, 0.75 * grid)));
     pixel = vec4(colour * mix(0.6, 1.0, facing), opacity);
 }

@@ -49,7 +49,7 @@ glm::vec2 pixel_of(float x, float z) {
 TEST_CASE("A ghost changes the picture where it is and nowhere else, whatever the cloth is drawn with", "[ghost]") {
     Studio studio;
     const sim::Snapshot cloth = flat_cloth(8, 8);
-    const sim::Snapshot ghost = small_cloth_at({0.2f, 0.001f, 0.1f}, 0.3f, 5, 9);
+    const sim::Snapshot ghost = small_cloth_at({0.2f, 0.02f, 0.1f}, 0.3f, 5, 9);
     const glm::vec2 low = pixel_of(0.05f, -0.05f), high = pixel_of(0.35f, 0.25f);
     for (const char* shader : {"diffuse", "wireframe", "strain", "translucent", "distance"}) {
         INFO(shader);
@@ -132,15 +132,15 @@ TEST_CASE("A ghost is see-through, in the same way from both sides and in whatev
         const render::Image image = studio.draw(scene);
         return brightness(image.pixel(x, 49));
     };
-    const int within = 67; // off its lines
     for (const float eye : {2.f, -2.f}) {
         INFO(eye);
+        const int within = eye > 0 ? 67 : 92; // where the layers are, off their lines
         const double without = at(nullptr, eye, within), once = at(&single, eye, within),
                      twice = at(&folded, eye, within);
         CHECK(std::abs(once - without) > 3);
         CHECK(std::abs(once - twice) < 8);
     }
-    CHECK(std::abs(at(&single, 2, within) - at(&single, -2, within)) < 2);
+    CHECK(std::abs(at(&single, 2, 67) - at(&single, -2, 67)) < 2);
 }
 
 TEST_CASE("Points of a ghost that are not finite are left out with what hangs on them", "[ghost]") {
