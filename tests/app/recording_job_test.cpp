@@ -22,16 +22,19 @@ app::RecordingJob::Result result_of(app::RecordingJob& job) {
     return std::move(*result);
 }
 
-/// What takes long to save: states that have to be computed.
-timeline::Recording long_recording() {
+/// What takes for ever to save: the start of a run, of which millions of steps are said to be known.
+timeline::Recording endless_recording() {
     timeline::Recording recording;
-    recording.scene.simulation = recorded_cloth(60, 60);
-    timeline::Player player({.seek_s = 100});
-    player.start(recording.scene.simulation);
-    for (int n = 0; n < 4 * 40; ++n)
-        player.step();
-    recording.timeline = player.timeline();
-    recording.at = player.moment();
+    recording.scene.simulation = recorded_cloth(20, 20);
+    const auto start = std::make_shared<const sim::Description>(recording.scene.simulation);
+    timeline::FrameClock clock;
+    clock.substeps = start->stepping.substeps;
+    clock.dt = sim::step_length(*start);
+    const timeline::BranchId id = recording.timeline.add_root(start, clock);
+    constexpr std::uint64_t steps = 10'000'000;
+    recording.timeline.find(id)->end = steps;
+    recording.timeline.store(id, {0, steps, start, nullptr, false});
+    recording.at = {id, 0};
     return recording;
 }
 
@@ -78,7 +81,7 @@ TEST_CASE("A job that is cancelled, or whose window closes, ends soon and leaves
     const TemporaryFolder folder;
     const auto file = folder / "a.clothrec";
     write_file(file, "old");
-    const timeline::Recording recording = long_recording();
+    const timeline::Recording recording = endless_recording();
     app::RecordingJob job;
     REQUIRE(job.save(recording, file));
     while (job.status() && job.status()->share == 0)
