@@ -215,7 +215,7 @@ TEST_CASE("The ghost is the other branch at the same time", "[threads]") {
     REQUIRE_FALSE(finished(thread).ghost);
 }
 
-TEST_CASE("A restart is a run of its own beside the others; a new scene forgets them all", "[threads]") {
+TEST_CASE("A restart is a run of its own beside the others, and a new scene forgets them all", "[threads]") {
     app::SimulationThread thread;
     thread.start(small_cloth());
     thread.step_frames(5);

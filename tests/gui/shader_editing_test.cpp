@@ -52,7 +52,7 @@ struct ShaderLab {
     TemporaryFolder shipped, user;
     std::unique_ptr<LabDriver> driver;
 
-    explicit ShaderLab(int width = 900, int height = 600) {
+    explicit ShaderLab(int width = 900, int height = 900) {
         fs::copy(checkout() / "shaders", shipped / "shaders", fs::copy_options::recursive);
         write_file(shipped / "shaders/cloth/plain.frag", plain("1.0, 0.0, 0.0"));
         ::setenv("CLOTHLAB_DATA", shipped.path().c_str(), 1);

@@ -38,6 +38,7 @@ struct StepLab {
     void look_into(ImVec2 at = {10, 30}, ImVec2 size = {720, 340}) {
         lab().open[static_cast<std::size_t>(ui::PanelId::step)] = true;
         driver.settle();
+        driver.act([](ImGuiTestContext* user) { user->UndockWindow("###Inside a step"); });
         ImGui::SetWindowPos("###Inside a step", at);
         ImGui::SetWindowSize("###Inside a step", size);
         trace_again();

@@ -5,6 +5,7 @@
 
 #include "lab_driver.h"
 #include "support/files.h"
+#include "ui/icons.h"
 
 namespace clothlab::test {
 namespace {
@@ -27,8 +28,12 @@ public:
                 user->KeyPress(key);
         });
     }
-    bool click(const char* item) {
-        return driver.act([&](ImGuiTestContext* user) { user->ItemClick(item); });
+    bool click_in(const char* window, const char* item) {
+        return driver.act([&](ImGuiTestContext* user) {
+            user->WindowFocus(window);
+            user->SetRef(window);
+            user->ItemClick(item);
+        });
     }
     std::uint64_t hash_of_positions() {
         std::uint64_t hash = 0;
@@ -81,16 +86,19 @@ TEST_CASE("Keys step forth and back, to the start and to the end, and what is se
 
 TEST_CASE("Dragging along the track shows each state at once, and pauses") {
     Lecture lecture(40);
-    const auto& panel = lecture.lab().report[static_cast<std::size_t>(ui::PanelId::timeline)];
-    REQUIRE(panel.drawn);
     lecture.driver.app().simulation().play(true);
     std::vector<std::uint64_t> seen;
     REQUIRE(lecture.driver.act([&](ImGuiTestContext* user) {
-        const float y = panel.y + panel.height * 0.52f;
-        user->MouseMoveToPos({panel.x + panel.width * 0.3f, y});
+        const ImRect track = user->ItemInfo("###Timeline/track").RectFull;
+        const auto at = [&](float share) {
+            return ImVec2{track.Min.x + share * track.GetWidth(), track.Min.y + 0.64f * track.GetHeight()};
+        };
+        user->MouseMoveToPos(at(0.1f));
+        user->Yield(2);
         user->MouseDown();
-        for (const float share : {0.4f, 0.6f, 0.8f, 0.5f}) {
-            user->MouseMoveToPos({panel.x + panel.width * share, y});
+        user->Yield(2);
+        for (const float share : {0.2f, 0.4f, 0.6f, 0.3f}) {
+            user->MouseMoveToPos(at(share));
             for (int n = 0; n < 3; ++n) {
                 lecture.driver.app().simulation().finish();
                 user->Yield();
@@ -122,7 +130,7 @@ TEST_CASE("A step back across a change of a parameter brings the slider's old va
     CHECK_FALSE(lecture.lab().playing);
 }
 
-TEST_CASE("An edit after a rewind makes a branch; both futures are listed, switched and drawn over each other") {
+TEST_CASE("An edit after a rewind makes a branch, and both futures are listed, switched and drawn over each other") {
     Lecture lecture(30);
     const std::uint64_t old_end = lecture.hash_of_positions();
     REQUIRE(lecture.press(ImGuiKey_LeftArrow, 20));
@@ -134,7 +142,7 @@ TEST_CASE("An edit after a rewind makes a branch; both futures are listed, switc
     CHECK(lecture.hash_of_positions() != old_end);
 
     // The ghost: the old future over the new one, with their distance.
-    REQUIRE(lecture.click("//Branches/$$1/##ghost"));
+    REQUIRE(lecture.click_in("###Branches", "$$1/" ICON_FA_GHOST "##ghost"));
     for (int n = 0; n < 2000 && lecture.lab().timeline.ghost_progress < 1; ++n)
         lecture.driver.frame();
     const ui::TimelineWork& t = lecture.lab().timeline;
@@ -147,7 +155,7 @@ TEST_CASE("An edit after a rewind makes a branch; both futures are listed, switc
     CHECK(t.ghost_curve->back().distance.rms == t.ghost_distance->rms);
     CHECK(lecture.driver.app().draw_report().ghost_triangles > 0);
 
-    REQUIRE(lecture.click("//Branches/$$1/Run 1"));
+    REQUIRE(lecture.click_in("###Branches", "$$1/###name"));
     CHECK(lecture.overview().line == 1);
     CHECK(lecture.lab().scene.simulation.cloth.ks == 5000);
     CHECK(lecture.hash_of_positions() == old_end);
@@ -238,19 +246,22 @@ TEST_CASE("A recording brings a whole session back: branches, bookmarks, the mom
 }
 
 TEST_CASE("Stages of the next step are shown while the panel for them is seen, and the run is as if nobody looked") {
-    Lecture lecture(12);
-    lecture.lab().open[static_cast<std::size_t>(ui::PanelId::step)] = true;
-    REQUIRE(lecture.driver.act([](ImGuiTestContext* user) { user->WindowFocus("//Inside a step"); }));
-    lecture.driver.settle();
-    REQUIRE(lecture.lab().timeline.trace);
-    CHECK(lecture.lab().timeline.trace->step == 360);
-    lecture.lab().open[static_cast<std::size_t>(ui::PanelId::step)] = false;
-    lecture.driver.app().simulation().step_frames(3);
-    lecture.driver.settle();
-    const std::uint64_t looked_at = lecture.hash_of_positions();
+    std::uint64_t looked_at = 0;
+    {
+        Lecture lecture(12);
+        lecture.lab().open[static_cast<std::size_t>(ui::PanelId::step)] = true;
+        REQUIRE(lecture.driver.act([](ImGuiTestContext* user) { user->WindowFocus("###Inside a step"); }));
+        lecture.driver.settle();
+        REQUIRE(lecture.lab().timeline.trace);
+        CHECK(lecture.lab().timeline.trace->step == 360);
+        lecture.lab().open[static_cast<std::size_t>(ui::PanelId::step)] = false;
+        lecture.driver.app().simulation().step_frames(3);
+        lecture.driver.settle();
+        looked_at = lecture.hash_of_positions();
+        CHECK_FALSE(lecture.lab().timeline.trace);
+    }
     Lecture other(15);
     CHECK(other.hash_of_positions() == looked_at);
-    CHECK_FALSE(lecture.lab().timeline.trace);
 }
 
 } // namespace clothlab::test

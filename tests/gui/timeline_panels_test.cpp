@@ -66,7 +66,7 @@ TEST_CASE("A double click on a branch renames it, Escape leaves it as it was") {
     CHECK_FALSE(p.driver.lab.timeline_view.renaming);
 }
 
-TEST_CASE("The ghost button switches a branch's ghost on, and off again; the branch shown has none") {
+TEST_CASE("The ghost button switches a branch's ghost on, and off again, and the branch shown has none") {
     Panel p("###Branches");
     REQUIRE(p.driver.act([](ImGuiTestContext* user) { user->ItemClick("###Branches/$$3/" ICON_FA_GHOST "##ghost"); }));
     REQUIRE(p.driver.asked<ui::ShowGhost>().size() == 1);
@@ -160,7 +160,7 @@ TEST_CASE("A breakpoint's strain is typed in percent and kept as a fraction, a h
     CHECK(list[1].value == 0.25);
 }
 
-TEST_CASE("A breakpoint's kind, point and side of the step are chosen; a point outside the grid is its edge") {
+TEST_CASE("A breakpoint's kind, point and side of the step are chosen, and a point outside the grid is its edge") {
     Panel p("###Moments");
     const auto& gain = timeline::breakpoint_info()[static_cast<std::size_t>(BreakpointKind::energy_gain)];
     auto list = set_by(p.driver, [&](ImGuiTestContext* user) {

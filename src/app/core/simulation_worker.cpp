@@ -66,6 +66,7 @@ void SimulationWorker::begin_run() {
 }
 
 void SimulationWorker::start(const sim::Description& description) {
+    error_.clear();
     attempt([&] {
         timeline::Player next(player_.options(), {.threads = most_threads()});
         next.start(description);
@@ -76,6 +77,7 @@ void SimulationWorker::start(const sim::Description& description) {
 }
 
 void SimulationWorker::restart(const sim::Description& description) {
+    error_.clear();
     attempt([&] {
         player_.start(description);
         begin_run();
@@ -88,10 +90,12 @@ void SimulationWorker::change(const sim::Description& description) {
     settle_seek();
     if (!can_change_live(player_.simulation().description(), description))
         return restart(description);
+    error_.clear();
     attempt([&] { player_.change(description); });
 }
 
 void SimulationWorker::adopt(timeline::Timeline timeline, const timeline::Moment& at) {
+    error_.clear();
     attempt([&] {
         player_.adopt(std::move(timeline), at);
         loop_.reset();
