@@ -126,7 +126,8 @@ void about(ShaderDeclaration& shader, const std::string& text, int line) {
         shader.translucent = take_word(a, "translucent") || shader.translucent;
         shader.quantity = take(a, "quantity", shader.quantity);
         if (!shader.quantity.empty() && !sim::find_point_quantity(shader.quantity))
-            fail(line, "no such quantity as \"" + shader.quantity + "\"; there are strain, speed, gap, curvature and distance");
+            fail(line, "no such quantity as \"" + shader.quantity +
+                           "\"; there are strain, speed, gap, curvature and distance");
         nothing_left(a, "a shader", "title, help, lines, translucent and quantity", line);
     } else if (take_word(a, "legend")) {
         ShaderLegend legend{take(a, "title"), take(a, "unit"), take(a, "low"), take(a, "high"), take(a, "map")};

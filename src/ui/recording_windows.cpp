@@ -131,8 +131,8 @@ void export_meshes_window(Lab& lab, bool wanted) {
                        static_cast<unsigned long long>(count));
     ImGui::BeginDisabled(files.folder.empty() || lab.timeline.job.has_value());
     if (ImGui::Button("Export###done")) {
-        ask_timeline(lab,
-                     ExportMeshes{files.folder, files.ply ? timeline::MeshFormat::ply : timeline::MeshFormat::obj, range, files.every});
+        ask_timeline(lab, ExportMeshes{files.folder, files.ply ? timeline::MeshFormat::ply : timeline::MeshFormat::obj,
+                                       range, files.every});
         ImGui::CloseCurrentPopup();
     }
     ImGui::EndDisabled();
