@@ -70,9 +70,11 @@ void Player::clear() {
 
 void Player::begin_branch() {
     found_ = {};
-    for (const Branch* branch : timeline_.line(line_))
-        for (const Mark& mark : branch->marks)
-            found_[static_cast<std::size_t>(mark.kind)] = true;
+    for_line([&](const Branch& branch, std::uint64_t last) {
+        for (const Mark& mark : branch.marks)
+            if (mark.step <= last)
+                found_[static_cast<std::size_t>(mark.kind)] = true;
+    });
     frame_ = {};
     before_change_.reset();
     ++version_;
@@ -261,10 +263,14 @@ void Player::look_for_peak(Branch& branch) {
     const Sample& sample = branch.samples.back();
     if (!std::isfinite(sample.max_strain) || sample.max_strain <= 0)
         return;
-    for (const Branch* b : timeline_.line(line_))
-        for (const Mark& m : b->marks)
-            if (m.kind == MarkKind::peak_strain && sample.max_strain <= new_peak * m.value)
-                return;
+    bool higher = true;
+    for_line([&](const Branch& b, std::uint64_t last) {
+        for (const Mark& m : b.marks)
+            if (m.kind == MarkKind::peak_strain && m.step <= last)
+                higher = higher && sample.max_strain > new_peak * m.value;
+    });
+    if (!higher)
+        return;
     std::erase_if(branch.marks, [](const Mark& m) { return m.kind == MarkKind::peak_strain; });
     mark(branch, MarkKind::peak_strain, sample.max_strain,
          sentence("The largest strain so far: %.3g %%.", 100.0 * static_cast<double>(sample.max_strain)));
@@ -274,9 +280,10 @@ const sim::Trouble* Player::trouble() const {
     const std::uint64_t step = simulation_ ? simulation_->steps() : 0;
     const sim::Trouble* first = nullptr;
     if (line_ != 0)
-        for (const Branch* branch : timeline_.line(line_))
-            if (branch->trouble && branch->trouble_step <= step)
-                first = &*branch->trouble;
+        for_line([&](const Branch& branch, std::uint64_t last) {
+            if (branch.trouble && branch.trouble_step <= std::min(step, last))
+                first = &*branch.trouble;
+        });
     return first;
 }
 

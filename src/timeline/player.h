@@ -91,6 +91,17 @@ private:
     void begin_branch();
 
     CacheOptions options_;
+    /// Calls look(branch, last) for the branches of the line shown, with the last step that belongs to it, from the end
+    /// to the root.
+    template <class Look>
+    void for_line(Look look) const {
+        const Branch* child = nullptr;
+        for (const Branch* branch : timeline_.line(line_)) {
+            look(*branch, child ? child->fork_step : branch->end);
+            child = branch;
+        }
+    }
+
     Timeline timeline_;
     BranchId line_ = 0;
     std::uint64_t version_ = 0;

@@ -4,6 +4,7 @@
 #include <catch2/catch_test_macros.hpp>
 
 #include "lab_driver.h"
+#include "render/image.h"
 #include "support/files.h"
 #include "ui/icons.h"
 
@@ -262,6 +263,53 @@ TEST_CASE("Stages of the next step are shown while the panel for them is seen, a
     }
     Lecture other(15);
     CHECK(other.hash_of_positions() == looked_at);
+}
+
+// Not run by default: `clothlab_gui_tests "[draw-timeline]"` draws the pictures of docs/timeline.md.
+TEST_CASE("Draw the timeline's pictures", "[.][draw-timeline]") {
+    LabDriver driver("sphere-medium", LabDriver::options(1440, 900));
+    scene::Camera& camera = *driver.lab().scene.camera;
+    camera.target = {0.5, 0.28, 0.5};
+    camera.distance = 1.5;
+    const auto frames = [&](int count) {
+        driver.app().simulation().step_frames(count);
+        driver.settle();
+    };
+    const auto ask = [&](ui::TimelineRequest request) {
+        driver.lab().ask(ui::Request(std::move(request)));
+        driver.settle();
+        driver.settle();
+    };
+    const auto picture = [&](const char* panel, const char* name) {
+        REQUIRE(driver.act([&](ImGuiTestContext* user) {
+            user->WindowFocus(panel);
+            user->MouseMoveToPos({700, 120});
+        }));
+        driver.settle();
+        render::write_png(driver.app().picture(), checkout() / "docs/pictures" / name);
+    };
+    frames(60);
+    ask(ui::AddBookmark{"on the sphere"});
+    frames(60);
+    ask(ui::SeekStep{40 * 30});
+    driver.lab().scene.simulation.cloth.ks = 500;
+    driver.settle();
+    frames(50);
+    ask(ui::ShowGhost{1});
+    for (int n = 0; n < 2000 && driver.lab().timeline.ghost_progress < 1; ++n)
+        driver.frame();
+    ask(ui::SetBreakpoints{{{timeline::BreakpointKind::max_strain, 0.05, {0, 0}, false, true},
+                            {timeline::BreakpointKind::point_falls, 0.3, {0, 49}, true, true}}});
+    picture("###Branches", "timeline.png");
+    picture("###Moments", "moments.png");
+    ask(ui::ShowGhost{0});
+    ask(ui::SwitchBranch{1});
+    ask(ui::SeekStep{46 * 30});
+    driver.lab().open[static_cast<std::size_t>(ui::PanelId::step)] = true;
+    driver.settle();
+    driver.settle();
+    driver.lab().timeline.stage = static_cast<int>(sim::Stage::colliders);
+    picture("###Inside a step", "step.png");
 }
 
 } // namespace clothlab::test
