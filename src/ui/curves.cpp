@@ -115,7 +115,15 @@ const std::vector<Curve>& curves_of(Lab& lab, CurveRow row, const CurveRange& ra
     const std::size_t count = is_ghost ? ghost.size() : o.samples.size();
     if (drawn.data == data && drawn.count == count && drawn.version == o.version && drawn.range == range)
         return drawn.curves;
-    drawn = {data, count, o.version, range, {}};
+    // A long run's curves take milliseconds, and a few more frames at its end are less than a pixel.
+    constexpr std::size_t many = 30'000;
+    const double pixel = (range.last - range.first) / range.columns;
+    const bool nearly = drawn.range.columns == range.columns && std::abs(drawn.range.first - range.first) <= pixel &&
+                        std::abs(drawn.range.last - range.last) <= pixel;
+    const double now = ImGui::GetTime();
+    if (nearly && count >= drawn.count && drawn.count > many && now - drawn.at < 0.25)
+        return drawn.curves;
+    drawn = {data, count, o.version, now, range, {}};
     const std::size_t lines = row_of(row).lines.size();
     if (is_ghost)
         drawn.curves = decimate(ghost, lines, ghost_values, range, {});

@@ -42,6 +42,7 @@ struct TimelineView {
         const void* data = nullptr;
         std::size_t count = 0;
         std::uint64_t version = 0;
+        double at = 0; ///< when, in ImGui's time
         CurveRange range;
         std::vector<Curve> curves;
     };

@@ -342,8 +342,8 @@ TrackScale draw_track(Lab& lab, const FrameAxis& axis) {
     draw_band(o, axis, scale, lanes);
     draw_loop(lab, scale, lanes);
     draw_places(places, scale, lanes);
-    draw_playhead(lab, axis, scale, lanes.seconds, lanes.bottom, true);
     list->PopClipRect();
+    draw_playhead(lab, axis, scale, lanes.seconds, lanes.bottom, true);
     return scale;
 }
 

@@ -272,7 +272,7 @@ void draw_transport(Lab& lab) {
     if (too_wide()) {
         brief = false;
         moment = mono_width(moment_text(lab, true, brief));
-        cache_width = font * 5;
+        cache_width = moment + space + font * 5 <= room ? font * 5 : button_side();
         speed = font * 6.4f;
     }
 

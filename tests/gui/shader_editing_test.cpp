@@ -296,6 +296,8 @@ TEST_CASE("What is typed into the shader panel changes the picture, and Ctrl+S s
     REQUIRE(s.driver->act([](ImGuiTestContext* user) {
         user->KeyPress(ImGuiKey_End);
         user->KeyChars(" // nrwf p"); // keys of the lab, and here letters
+        for (const ImGuiKey key : {ImGuiKey_Minus, ImGuiKey_Equal, ImGuiKey_M, ImGuiKey_LeftBracket, ImGuiKey_Period})
+            user->KeyPress(key);
         user->KeyPress(ImGuiKey_Home);
         user->KeyChars("#define vec4(r,g,b,a) vec4(g,r,b,a)");
         user->KeyPress(ImGuiKey_Enter);
@@ -303,6 +305,9 @@ TEST_CASE("What is typed into the shader panel changes the picture, and Ctrl+S s
     CHECK(s.colour() == green);
     CHECK(s.lab().scene == before);
     CHECK(s.lab().snapshot->steps == 0);
+    CHECK(s.lab().speed == 1);
+    CHECK(s.lab().timeline.overview->bookmarks.empty());
+    CHECK_FALSE(s.lab().timeline.loop);
     CHECK(ui::has_unsaved_shaders(s.lab()));
     CHECK(read_file(s.plain_file()) == shipped);
     CHECK_FALSE(fs::exists(s.user / "shaders"));

@@ -259,6 +259,37 @@ TEST_CASE("A curve is computed again when the timeline or the view is another, a
     CHECK(drawn.curves[0].x.back() == 50);
 }
 
+TEST_CASE("A long run's curve follows within half a second, and at once when the view is another") {
+    Track t;
+    const ui::TimelineView::Drawn& drawn = t.driver.lab.timeline_view.drawn[0];
+    const auto grow = [&](std::uint64_t frames) {
+        auto o = made_up_overview();
+        o->version = frames;
+        o->end_frame = frames;
+        o->end_step = frames * 30;
+        o->reachable = {{0, frames}};
+        const timeline::Sample last = o->samples.back();
+        while (o->samples.back().frame < frames) {
+            o->samples.push_back(last);
+            o->samples.back().frame = o->samples[o->samples.size() - 2].frame + 1;
+        }
+        t.driver.lab.timeline.overview = o;
+    };
+    grow(40'000);
+    t.driver.frame();
+    CHECK(drawn.version == 40'000);
+    grow(40'001);
+    for (double end = ImGui::GetTime() + 0.5; ImGui::GetTime() < end;)
+        t.driver.frame();
+    CHECK(drawn.version == 40'001);
+    grow(40'002);
+    t.driver.lab.timeline_view.fit = false;
+    t.driver.lab.timeline_view.first = 20'000;
+    t.driver.lab.timeline_view.last = 40'002;
+    t.driver.frame();
+    CHECK(drawn.version == 40'002);
+}
+
 TEST_CASE("A timeline with nothing in it yet is drawn") {
     PanelDriver driver;
     driver.lab.timeline.overview = std::make_shared<timeline::Overview>();
