@@ -386,10 +386,10 @@ void Renderer::Parts::draw_part(const Scene& what, const Surface& surface, DrawR
     }
     if (what.options.show_pins)
         draw_pins(what, report);
+    report.arrows = arrows.draw(what.arrows, what.marker, 1.4f * report.line_width, shaders);
     if (cloth_last && what.ghost != nullptr) // what is behind the cloth has shone through it
         draw_depth(what.options, surface);
     report.ghost_triangles = ghost.draw(shaders);
-    report.arrows = arrows.draw(what.arrows, what.marker, 1.4f * report.line_width, shaders);
 }
 
 DrawReport Renderer::draw(const Scene& what, Target& target) {
