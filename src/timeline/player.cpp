@@ -15,6 +15,8 @@ namespace {
 constexpr double stored_share = 0.4;
 /// Of the budget, for states on the way of a seek.
 constexpr std::size_t way_share = 8;
+/// A frame that costs more than a seek may, times this, has states within it; they are the first to be thinned out.
+constexpr double slow_frame = 2;
 constexpr std::uint64_t widest_stride = 16; ///< frames
 /// Of the newest frame in the mean cost of a frame.
 constexpr double newest_share = 0.1;
@@ -193,6 +195,8 @@ sim::StepCounts Player::record() {
     look_for_marks(branch, counts);
     if (simulation_->frame() != frame)
         end_frame(branch);
+    else
+        store_within_frame(branch);
     ++version_;
     return counts;
 }
@@ -228,6 +232,16 @@ void Player::end_frame(Branch& branch) {
         store_state(branch, false);
         timeline_.fit(seconds_per_frame_);
     }
+}
+
+void Player::store_within_frame(Branch& branch) {
+    const double step_s = seconds_per_frame_ / description_->stepping.substeps;
+    const auto steps = static_cast<double>(branch.end - branch.keyframes.back().step);
+    if (seconds_per_frame_ <= slow_frame * timeline_.options().seek_s ||
+        steps * step_s < slow_frame * timeline_.options().seek_s)
+        return;
+    store_state(branch, false);
+    timeline_.fit(seconds_per_frame_);
 }
 
 void Player::mark(Branch& branch, MarkKind kind, double value, std::string text) {

@@ -82,6 +82,7 @@ private:
 
     sim::StepCounts record();
     void end_frame(Branch& branch);
+    void store_within_frame(Branch& branch);
     void mark(Branch& branch, MarkKind kind, double value, std::string text);
     void look_for_marks(Branch& branch, const sim::StepCounts& counts);
     void look_for_peak(Branch& branch);

@@ -157,6 +157,24 @@ TEST_CASE("An hour of play stays within the budget, and what is reachable is rig
     REQUIRE(player.timeline().branches().size() == 1);
 }
 
+TEST_CASE("Where a frame takes longer than a seek may, states within it are stored as well") {
+    for (const double seek_s : {1e-9, 10.0}) {
+        Player player({.seek_s = seek_s});
+        player.start(tiny_cloth());
+        std::vector<std::uint64_t> hashes{player.simulation().hash()};
+        for (int n = 0; n < 40; ++n) {
+            player.step();
+            hashes.push_back(player.simulation().hash());
+        }
+        const std::vector<Keyframe>& stored = player.timeline().branches()[0].keyframes;
+        const auto within =
+            std::count_if(stored.begin(), stored.end(), [](const Keyframe& k) { return k.step % 2 == 1; });
+        REQUIRE((within > 0) == (seek_s < 1));
+        for (std::uint64_t step = 0; step < hashes.size(); ++step)
+            REQUIRE(hash_at(player, step) == hashes[step]);
+    }
+}
+
 TEST_CASE("With 64 MB a 50 x 50 cloth keeps a minute of frames reachable, exactly") {
     const int frames = sanitized ? 540 : 5400;
     sim::Description description; // the course's: 50 x 50 points, 90 frames/s, 30 substeps
