@@ -405,7 +405,7 @@ void Timeline::fit(double seconds_per_frame) {
         return static_cast<std::uint64_t>(std::clamp(std::floor(gap), 1.0, 1e6));
     };
     const auto thin_to = [&](std::uint64_t widest) {
-        for (std::uint64_t gap = 2; memory() > most && gap < 2 * widest; gap *= 2)
+        for (std::uint64_t gap = 1; memory() > most && gap < 2 * widest; gap *= 2)
             thin(most, std::min(gap, widest));
     };
     thin_to(frames(options_.seek_s));

@@ -175,6 +175,20 @@ TEST_CASE("Where a frame takes longer than a seek may, states within it are stor
     }
 }
 
+TEST_CASE("States within frames are thinned out before any frame is lost") {
+    Player all({.seek_s = 1e-9});
+    all.start(tiny_cloth());
+    for (int n = 0; n < 600; ++n)
+        all.step();
+    Player player({.budget = all.memory() * 5 / 6, .seek_s = 1e-9}); // too little for both, enough for the frames
+    player.start(tiny_cloth());
+    for (int n = 0; n < 600; ++n)
+        player.step();
+    REQUIRE(player.memory() <= player.options().budget);
+    for (std::uint64_t step = 0; step <= 600; ++step)
+        REQUIRE(player.timeline().reachable({player.line(), step}));
+}
+
 TEST_CASE("With 64 MB a 50 x 50 cloth keeps a minute of frames reachable, exactly") {
     const int frames = sanitized ? 540 : 5400;
     sim::Description description; // the course's: 50 x 50 points, 90 frames/s, 30 substeps
