@@ -47,14 +47,13 @@ std::vector<ui::SceneEntry> scene_entries() {
 
 LabApp::LabApp(const LabOptions& options, scene::Scene scene, fs::path file)
     : window_(options.window, options.width, options.height, "clothlab"),
-      imgui_(window_, layout_file(options), data_path("imgui.ini"), options.scale), renderer_(shader_folders(options)),
+      imgui_(window_, layout_file(options), data_path("imgui.ini"), options.scale), picture_(window_, imgui_),
+      renderer_(shader_folders(options)),
       // On the screen smooth motion matters more than smooth edges; a picture has time.
       automatic_samples_(options.window == Window::Kind::desktop && render::software_rendering() ? 1 : 4),
       viewport_(1, 1, automatic_samples_),
       shader_desk_(renderer_, lab_, options.user_shaders, options.look_at_shaders_s), drawn_{render::wireframe_shader,
                                                                                              {}} {
-    if (options.window == Window::Kind::offscreen)
-        whole_.emplace(options.width, options.height, 1);
     lab_.scenes = scene_entries();
     for (std::size_t i = 0; i < lab_.spring_colours.size(); ++i) {
         const glm::vec3& c = render::spring_colours[i];
@@ -77,7 +76,7 @@ void LabApp::run() {
     for (;;) {
         const bool busy = lab_.playing || lab_.flight || pictures_.recording() || timeline_desk_.expects_news() ||
                           ImGui::IsAnyItemActive() || dialog_;
-        if (!frame(busy ? 0 : 0.05))
+        if (!frame(!busy ? 0.05 : idle_ ? 0.004 : 0))
             return;
     }
 }
@@ -107,31 +106,12 @@ bool LabApp::frame(double wait_seconds) {
     carry_out_requests();
     pass_on_edits();
     draw_viewport();
-    unsigned framebuffer = 0;
-    if (whole_) {
-        whole_->bind();
-        GLint bound = 0;
-        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
-        glDisable(GL_FRAMEBUFFER_SRGB); // the interface's colours are sRGB already
-        framebuffer = static_cast<unsigned>(bound);
-    }
-    imgui_.end_frame(framebuffer);
-    if (whole_)
-        whole_->resolve();
+    idle_ = !picture_.draw(std::exchange(new_contents_, 0u));
     if (pictures_.wants_window())
-        pictures_.take_window(whole_ ? whole_->read() : read_window());
-    window_.swap();
+        pictures_.take_window(picture_.read());
+    picture_.show();
     set_title();
     return !quit_;
-}
-
-render::Image LabApp::read_window() const {
-    int width = 0, height = 0;
-    window_.framebuffer_size(width, height);
-    render::Image image = render::read_framebuffer(0, width, height);
-    for (std::size_t i = 3; i < image.rgba.size(); i += 4)
-        image.rgba[i] = 255; // windows need no alpha and may have any
-    return image;
 }
 
 void LabApp::take_published() {
@@ -360,7 +340,7 @@ void LabApp::draw_viewport() {
         shader_desk_.tell(&e);
     }
     shown_ = std::move(now);
-    lab_.viewport_texture = viewport_.texture();
+    lab_.viewport_texture = new_contents_ = viewport_.texture();
     tell_textures();
 }
 

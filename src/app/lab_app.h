@@ -11,6 +11,7 @@
 #include "app/core/simulation_thread.h"
 #include "app/gui/imgui_layer.h"
 #include "app/gui/shader_desk.h"
+#include "app/gui/window_picture.h"
 #include "app/pictures.h"
 #include "app/timeline_desk.h"
 #include "app/trace_view.h"
@@ -47,7 +48,7 @@ public:
     /// Steps the simulation to a frame and shows it, without haste: for pictures.
     void show_frame(int frame);
     /// The whole window as it was last drawn; only offscreen, where there is no screen to look at.
-    render::Image picture() const { return whole_.value().read(); }
+    render::Image picture() { return picture_.read(); }
 
     /// Opens a scene file. One that is wrong leaves everything as it was, and the lab says why; then false.
     bool open(const std::filesystem::path& file);
@@ -64,7 +65,6 @@ private:
     void show_scene(scene::Scene scene, std::filesystem::path file);
     void take_opened();
     void follow_timeline(const Published& now);
-    render::Image read_window() const;
     void take_published();
     void tell_legend();
     void tell_trouble(const sim::Diagnostics& diagnostics);
@@ -80,10 +80,10 @@ private:
 
     Window window_;
     ImGuiLayer imgui_;
+    WindowPicture picture_;
     render::Renderer renderer_;
     int automatic_samples_;
     render::Target viewport_;
-    std::optional<render::Target> whole_; ///< the window's picture, where framebuffer 0 holds none
     SimulationThread simulation_;
     ui::Lab lab_;
     ShaderDesk shader_desk_;
@@ -116,6 +116,8 @@ private:
     TimelineDesk timeline_desk_{simulation_, lab_};
     Pictures pictures_{renderer_, simulation_, lab_};
     ui::BrowseForTexture texture_wanted_; ///< what the dialog is for
+    unsigned new_contents_ = 0;           ///< the viewport's texture, when it was drawn into for this frame
+    bool idle_ = false;                   ///< the last frame showed nothing new
     bool quit_ = false;
 };
 

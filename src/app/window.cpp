@@ -72,6 +72,8 @@ Window::Window(Kind kind, int width, int height, const std::string& title) : kin
     if (!offscreen)
         glfwSwapInterval(1);
     glfwSetWindowUserPointer(handle_, this);
+    glfwSetWindowRefreshCallback(
+        handle_, [](GLFWwindow* window) { static_cast<Window*>(glfwGetWindowUserPointer(window))->uncovered_ = true; });
     glfwSetDropCallback(handle_, [](GLFWwindow* window, int count, const char** paths) {
         auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
         if (self->on_drop)

@@ -5,6 +5,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct GLFWwindow;
@@ -40,6 +41,8 @@ public:
     void set_title(const std::string& title);
     /// Shows what was drawn (desktop), in step with the display.
     void swap();
+    /// Whether the display has lost what was shown, as where another window lay over this one, since the last call.
+    bool take_uncovered() { return std::exchange(uncovered_, false); }
     /// Handles what happened; waits up to so many seconds for it first.
     void poll(double wait_seconds = 0);
     /// Called with the files that the user drops onto the window.
@@ -49,6 +52,7 @@ private:
     Kind kind_;
     GLFWwindow* handle_ = nullptr;
     std::string title_;
+    bool uncovered_ = false;
 };
 
 } // namespace clothlab::app

@@ -1,6 +1,7 @@
 #include "render/cloth_mesh.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "render/cloth_normals.h"
@@ -16,6 +17,19 @@ template <class T>
 void fill(const Buffer& buffer, std::span<const T> data, GLenum usage) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size_bytes()), data.data(), usage);
+}
+
+/// The same for a buffer of that size that nothing is drawn with any more. A new store, which a driver also gives for
+/// contents that are said to be of no use, would cost as much as all the rest of a draw: its pages are new to the
+/// process. False when the driver has lost it.
+bool refill(const Buffer& buffer, std::span<const float> data) {
+    const auto size = static_cast<GLsizeiptr>(data.size_bytes());
+    glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+    void* const store = glMapBufferRange(GL_ARRAY_BUFFER, 0, size, GL_MAP_WRITE_BIT);
+    if (store == nullptr)
+        return false;
+    std::memcpy(store, data.data(), data.size_bytes());
+    return glUnmapBuffer(GL_ARRAY_BUFFER) == GL_TRUE;
 }
 
 /// Of the buffer and the vertex array that are bound: an attribute that begins after so many floats.
@@ -102,7 +116,11 @@ void ClothMesh::make_vertices(const sim::Snapshot& snapshot) {
     cloth_normals(columns_, rows_, positions, usable, data.subspan(vectors, vectors));
     cloth_tangents(columns_, rows_, positions, usable, data.subspan(2 * vectors, vectors));
 
-    fill<float>(vertex_data_, data_, GL_STREAM_DRAW);
+    current_ = (current_ + 1) % vertex_data_.size();
+    Stream& stream = vertex_data_[current_];
+    if (stream.size != data_.size() || !refill(stream.buffer, data_))
+        fill<float>(stream.buffer, data_, GL_STREAM_DRAW);
+    stream.size = data_.size();
     glBindVertexArray(vertices_.id());
     attribute(ShaderLibrary::position, 3, 0);
     attribute(ShaderLibrary::normal, 3, vectors);
@@ -114,7 +132,7 @@ void ClothMesh::make_vertices(const sim::Snapshot& snapshot) {
 
 void ClothMesh::use_quantity(bool second) {
     glBindVertexArray(vertices_.id());
-    glBindBuffer(GL_ARRAY_BUFFER, vertex_data_.id());
+    glBindBuffer(GL_ARRAY_BUFFER, vertex_data_[current_].buffer.id());
     if (const auto at = quantity_at_[second ? 1 : 0]) {
         attribute(ShaderLibrary::quantity, 1, *at);
     } else { // shaders then see the attribute's constant value

@@ -50,6 +50,10 @@ private:
         Buffer buffer = Buffer::create();
         GLsizei count = 0;
     };
+    struct Stream {
+        Buffer buffer = Buffer::create();
+        std::size_t size = 0; ///< in floats
+    };
     void make_indices();
     void make_uv();
     void make_vertices(const sim::Snapshot& snapshot);
@@ -66,7 +70,10 @@ private:
 
     VertexArray vertices_ = VertexArray::create();
     Buffer uv_ = Buffer::create();
-    Buffer vertex_data_ = Buffer::create(); ///< all positions, then all normals, tangents and, if any, quantities
+    /// All positions, then all normals, tangents and, if any, quantities. One after the other in turn: the driver may
+    /// still draw with the last two.
+    std::array<Stream, 3> vertex_data_;
+    std::size_t current_ = 0; ///< the one to draw with
     Indices triangles_, points_;
     std::array<Indices, sim::spring_kinds> springs_;
 };

@@ -124,6 +124,19 @@ void Target::resolve() {
     glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(previous_));
 }
 
+void Target::unbind() {
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(previous_));
+}
+
+void Target::copy_to_window() const {
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.id());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
 Image Target::read() const {
     return read_framebuffer(resolved_.id(), width_, height_);
 }

@@ -29,10 +29,14 @@ public:
     /// first, as OpenGL has it: an ImGui image takes uv (0, 1) to (1, 0). Stays the same texture over resizes.
     GLuint texture() const { return colour_.id(); }
 
-    /// Directs drawing here and sets the viewport. sRGB conversion on write is switched on until resolve().
+    /// Directs drawing here and sets the viewport. sRGB conversion on write is switched on until resolve() or unbind().
     void bind();
     /// Resolves the samples into texture() and directs drawing to the framebuffer that was bound before bind().
     void resolve();
+    /// Directs drawing to the framebuffer that was bound before bind(), without resolving.
+    void unbind();
+    /// Copies a picture without samples into the window, framebuffer 0, as it is.
+    void copy_to_window() const;
     /// The resolved picture.
     Image read() const;
 

@@ -41,7 +41,7 @@ void draw_panel(Lab& lab, const Panel& panel) {
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGuiWindowFlags flags = 0;
     if (viewport)
-        flags = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+        flags = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground;
     if (panel.id == PanelId::shader && has_unsaved_shaders(lab))
         flags = ImGuiWindowFlags_UnsavedDocument;
     // Where a layout of the user's own does not know the panel.
@@ -118,7 +118,9 @@ void draw(Lab& lab) {
     handle_keys(lab);
     draw_menu(lab);
     draw_status_bar(lab);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, 0);
     ImGui::DockSpaceOverViewport(dockspace);
+    ImGui::PopStyleColor();
     follow_shader_files(lab);
     for (const Panel& panel : panels)
         draw_panel(lab, panel);

@@ -72,6 +72,8 @@ public:
     /// False once the lab is closed.
     bool frame() {
         const bool open = app_->frame();
+        if (open && after_frame)
+            after_frame();
         ImGuiTestEngine_PostSwap(engine_);
         return open;
     }
@@ -83,6 +85,8 @@ public:
         for (int i = 0; i < 3; ++i)
             frame();
     }
+
+    std::function<void()> after_frame; ///< is called when a frame has been drawn
 
     app::LabApp& app() { return *app_; }
     ui::Lab& lab() { return app_->lab(); }

@@ -91,17 +91,30 @@ void ImGuiLayer::begin_frame() {
     ImGui::NewFrame();
 }
 
-void ImGuiLayer::end_frame(unsigned framebuffer) {
+void ImGuiLayer::prepare_to_draw(unsigned framebuffer) {
     ImGui::Render();
     int width = 0, height = 0;
     window_.framebuffer_size(width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, width, height);
     glClearColor(0.08f, 0.09f, 0.10f, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     if (ImGui::GetIO().WantSaveIniSettings)
         save_layout_if_changed();
+}
+
+void ImGuiLayer::end_frame() {
+    prepare_to_draw(0);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+bool ImGuiLayer::end_frame(unsigned framebuffer, unsigned new_contents) {
+    prepare_to_draw(framebuffer);
+    ImDrawData& data = *ImGui::GetDrawData();
+    const std::vector<PixelRect> parts = damage_.update(data, new_contents);
+    for (const PixelRect& part : parts)
+        draw_part(data, part);
+    return !parts.empty();
 }
 
 void ImGuiLayer::load_default_layout() {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "app/gui/damage.h"
 #include "app/window.h"
 
 struct ImGuiContext;
@@ -20,18 +21,25 @@ public:
     ImGuiLayer& operator=(const ImGuiLayer&) = delete;
 
     void begin_frame();
-    /// Draws the frame into a framebuffer object of the window's size (0: the window itself).
-    void end_frame(unsigned framebuffer);
+    /// Draws the frame into the window.
+    void end_frame();
+    /// Draws what has changed since the last frame into a framebuffer object of the window's size that still holds that
+    /// one. `new_contents` is a texture that has been drawn into since, 0 for none. False when nothing has changed.
+    bool end_frame(unsigned framebuffer, unsigned new_contents);
+    /// What the framebuffer of the other end_frame() held is lost.
+    void forget_picture() { damage_.forget(); }
     /// Back to the default layout with the next frame.
     void reset_layout() { default_layout_wanted_ = true; }
 
     ImGuiContext* context() const { return context_; }
 
 private:
+    void prepare_to_draw(unsigned framebuffer);
     void load_default_layout();
     void save_layout_if_changed();
 
     Window& window_;
+    Damage damage_;
     std::filesystem::path layout_, default_layout_;
     ImGuiContext* context_ = nullptr;
     ImPlotContext* plots_ = nullptr;
