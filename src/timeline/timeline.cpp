@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -404,9 +405,10 @@ void Timeline::fit(double seconds_per_frame) {
         const double gap = seconds_per_frame > 0 ? seconds / seconds_per_frame : 1;
         return static_cast<std::uint64_t>(std::clamp(std::floor(gap), 1.0, 1e6));
     };
+    // The widest halved as often as it can be: gaps that were doubled from one frame on would stop short of it.
     const auto thin_to = [&](std::uint64_t widest) {
-        for (std::uint64_t gap = 1; memory() > most && gap < 2 * widest; gap *= 2)
-            thin(most, std::min(gap, widest));
+        for (auto halvings = std::bit_width(widest); memory() > most && halvings-- > 0;)
+            thin(most, widest >> halvings);
     };
     thin_to(frames(options_.seek_s));
     if (memory() > most)

@@ -6,6 +6,23 @@
 using namespace clothlab;
 using namespace clothlab::test;
 
+TEST_CASE("Who asks to play is told so at once, whatever the run is at", "[threads]") {
+    app::SimulationThread thread;
+    REQUIRE_FALSE(thread.latest().playing);
+    sim::Description description;
+    description.cloth.num_width_points = description.cloth.num_height_points = 150;
+    thread.start(description);
+    for (const bool on : {true, false, true, false}) {
+        thread.play(on);
+        REQUIRE(thread.latest().playing == on);
+    }
+    thread.play(true, true);
+    REQUIRE(thread.latest().backwards);
+    thread.play(false);
+    thread.finish();
+    REQUIRE_FALSE(thread.latest().playing);
+}
+
 TEST_CASE("Before a scene is given there is nothing to show, and commands do no harm", "[threads]") {
     app::SimulationThread thread;
     thread.play(true);

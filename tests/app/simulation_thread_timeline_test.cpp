@@ -1,5 +1,6 @@
 // The simulation's thread goes back and forth in what it has done.
 #include <catch2/catch_test_macros.hpp>
+#include <numeric>
 
 #include "support/simulation_thread.h"
 #include "timeline/player.h"
@@ -45,6 +46,25 @@ TEST_CASE("A step back, of a frame or a substep, shows what was shown before", "
     thread.jump_to_end();
     REQUIRE(shows(finished(thread), *after(23)));
     REQUIRE(thread.latest().playhead.at_end);
+}
+
+TEST_CASE("What a step costs is told of the steps that are taken, not of those that a seek takes again", "[threads]") {
+    const auto told = [](const app::Published& published) {
+        const sim::StageSeconds& s = published.snapshot->seconds_per_step;
+        return std::accumulate(s.begin(), s.end(), 0.0);
+    };
+    app::SimulationThread thread;
+    thread.start(small_cloth());
+    thread.step(1);
+    REQUIRE(told(finished(thread)) > 0);
+    thread.step_frames(20);
+    finished(thread);
+    for (const std::uint64_t step : {3, 90}) {
+        thread.seek(step);
+        REQUIRE(told(finished(thread)) == 0);
+    }
+    thread.step(1);
+    REQUIRE(told(finished(thread)) > 0);
 }
 
 TEST_CASE("A seek shows the step that was asked for last, and pauses", "[threads]") {

@@ -77,6 +77,23 @@ TEST_CASE("Over the budget states thin out evenly, the older ones first, and eve
         REQUIRE(timeline.reachable({branch.id, step}));
 }
 
+TEST_CASE("States thin out to about as many frames as a seek may take before any frame is dropped") {
+    for (const auto& [widest, reached] : {std::pair{1, 1}, {2, 2}, {3, 3}, {5, 4}, {6, 6}, {7, 6}, {12, 12}}) {
+        INFO(widest << " frames are within a seek's time");
+        Timeline timeline = made_up(1 << 20, 600, 1000);
+        CacheOptions options = timeline.options();
+        const std::size_t state = timeline.memory() / 600;
+        const std::size_t samples = 600 * sizeof(Sample), least = samples + state * (600u / reached + 1) * 21 / 20;
+        // Less and less, as for a run that grows.
+        for (options.budget = timeline.memory(); options.budget > least; options.budget -= state) {
+            timeline.set_options(options);
+            timeline.fit(0.01 / (widest + 0.1));
+        }
+        REQUIRE(timeline.branches()[0].samples.size() == 600);
+        REQUIRE(widest_gap(timeline.branches()[0]) == static_cast<std::uint64_t>(reached));
+    }
+}
+
 TEST_CASE("No seek becomes slower than it may: then the oldest states are dropped, and with them their frames") {
     for (const double frame_s : {0.001, 0.003, 0.1}) {
         Timeline timeline = made_up(20'000, 400, 1000);
@@ -193,7 +210,11 @@ TEST_CASE("With 64 MB a 50 x 50 cloth keeps a minute of frames reachable, exactl
     const int frames = sanitized ? 540 : 5400;
     sim::Description description; // the course's: 50 x 50 points, 90 frames/s, 30 substeps
     description.cloth.pinned = {{0, 0}, {49, 0}};
-    Player player({.budget = (std::size_t{64} << 20) / (sanitized ? 10 : 1)});
+    CacheOptions options;
+    options.budget = (std::size_t{64} << 20) / (sanitized ? 10 : 1);
+    if (sanitized) // a frame costs ten times as much
+        options.seek_s *= 10;
+    Player player(options);
     player.start(description);
     std::vector<std::uint64_t> hashes{player.simulation().hash()};
     for (int frame = 0; frame < frames; ++frame) {

@@ -46,7 +46,9 @@ std::uint64_t SimulationThread::adopt(timeline::Timeline timeline, const timelin
 }
 
 void SimulationThread::play(bool on, bool backwards) {
-    send([on, backwards](SimulationWorker& w) { w.play(on, backwards); });
+    const std::uint64_t ticket = send([on, backwards](SimulationWorker& w) { w.play(on, backwards); });
+    const std::lock_guard lock(mutex_);
+    asked_to_play_ = {ticket, on, backwards};
 }
 
 void SimulationThread::step(int substeps) {
@@ -123,7 +125,12 @@ void SimulationThread::pause_on_trouble(bool diverged, bool jitter) {
 
 Published SimulationThread::latest() const {
     const std::lock_guard lock(mutex_);
-    return published_;
+    Published latest = published_;
+    if (latest.taken < asked_to_play_.ticket) {
+        latest.playing = asked_to_play_.on;
+        latest.backwards = asked_to_play_.backwards;
+    }
+    return latest;
 }
 
 void SimulationThread::finish() {

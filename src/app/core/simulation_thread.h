@@ -46,6 +46,8 @@ public:
     /// Another timeline in place of the present one, paused at a moment of it.
     std::uint64_t adopt(timeline::Timeline timeline, const timeline::Moment& at);
 
+    /// What is published says so from now on, though the run may still be in the middle of a step: who asks twice is
+    /// not to be taken at his first word.
     void play(bool on, bool backwards = false);
     /// Pauses and takes this many steps, or goes to the end of this many frames.
     void step(int substeps);
@@ -100,6 +102,10 @@ private:
     std::deque<Command> commands_;
     std::uint64_t sent_ = 0; ///< commands
     Published published_;
+    struct {
+        std::uint64_t ticket = 0;
+        bool on = false, backwards = false;
+    } asked_to_play_; ///< last
     bool quit_ = false;
     bool busy_ = false; ///< with commands taken from the queue, and the steps that they ask for
     std::thread thread_;

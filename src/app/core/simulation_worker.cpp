@@ -298,7 +298,9 @@ void SimulationWorker::take_step() {
         breakpoints_.before_step(player_.simulation());
     sim::StepCounts counts;
     try {
+        step_times_.before_step(player_.simulation());
         counts = player_.step();
+        step_times_.after_step(player_.simulation());
     } catch (const std::exception& e) { // a stored state that cannot be read
         fail(e);
         pause();
@@ -409,16 +411,7 @@ std::shared_ptr<sim::Snapshot> SimulationWorker::snapshot() {
         renew_margin();
         s->stability = margin_;
     }
-    // After a seek the sums may be those of another simulation, which has only begun.
-    const sim::StageSeconds& sums = simulation.stage_seconds();
-    bool goes_on = simulation.steps() > published_steps_;
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        goes_on = goes_on && sums[i] >= published_seconds_[i];
-    const double steps = static_cast<double>(simulation.steps()) - static_cast<double>(published_steps_);
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        s->seconds_per_step[i] = goes_on ? (sums[i] - published_seconds_[i]) / steps : 0;
-    published_seconds_ = sums;
-    published_steps_ = simulation.steps();
+    s->seconds_per_step = step_times_.take();
     return s;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "app/core/published.h"
+#include "app/core/step_times.h"
 #include "timeline/breakpoints.h"
 #include "timeline/player.h"
 
@@ -154,8 +155,7 @@ private:
     double pace_time_ = 0, factor_time_ = 0;
 
     Clock::time_point published_at_;
-    sim::StageSeconds published_seconds_{};
-    std::uint64_t published_steps_ = 0;
+    StepTimes step_times_;
 };
 
 } // namespace clothlab::app
