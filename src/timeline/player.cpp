@@ -12,7 +12,7 @@ namespace {
 
 /// States are stored so close that a seek takes this share of what it may; the rest is for the steps within a frame and
 /// for thinning out.
-constexpr double stored_share = 0.4;
+constexpr double stored_share = 0.3;
 /// Of the budget, for states on the way of a seek.
 constexpr std::size_t way_share = 8;
 /// A frame that costs more than a seek may, times this, has states within it; they are the first to be thinned out.

@@ -405,9 +405,9 @@ void Timeline::fit(double seconds_per_frame) {
         const double gap = seconds_per_frame > 0 ? seconds / seconds_per_frame : 1;
         return static_cast<std::uint64_t>(std::clamp(std::floor(gap), 1.0, 1e6));
     };
-    // The widest halved as often as it can be: gaps that were doubled from one frame on would stop short of it.
+    // Gaps that fit into the next wider one a whole number of times, or that could not be reached.
     const auto thin_to = [&](std::uint64_t widest) {
-        for (auto halvings = std::bit_width(widest); memory() > most && halvings-- > 0;)
+        for (auto halvings = std::countr_zero(widest); memory() > most && halvings >= 0; --halvings)
             thin(most, widest >> halvings);
     };
     thin_to(frames(options_.seek_s));

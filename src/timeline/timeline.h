@@ -93,9 +93,9 @@ public:
     void store(BranchId id, Keyframe keyframe);
     /// The states that a branch's marks and bookmarks need are kept: they go last.
     void refresh_kept(BranchId id);
-    /// Thins out and drops states until the budget holds; `seconds_per_frame` is what a frame costs. First every other
-    /// state goes, the oldest first, as long as a seek between those left takes no longer than it may; then the oldest
-    /// go, each branch's last one excepted, and kept ones only when no others are left.
+    /// Thins out and drops states until the budget holds; `seconds_per_frame` is what a frame costs. First states go so
+    /// that those left are evenly apart, the oldest first, as long as a seek between them takes no longer than it may;
+    /// then the oldest go, each branch's last one excepted, and kept ones only when no others are left.
     void fit(double seconds_per_frame);
 
     const CacheOptions& options() const { return options_; }

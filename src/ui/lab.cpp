@@ -118,7 +118,7 @@ void draw(Lab& lab) {
     handle_keys(lab);
     draw_menu(lab);
     draw_status_bar(lab);
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, 0);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, 0); // panels cover it: it would be drawn for nothing
     ImGui::DockSpaceOverViewport(dockspace);
     ImGui::PopStyleColor();
     follow_shader_files(lab);

@@ -141,7 +141,7 @@ void point_row(Lab& lab, const sim::StepTrace& trace) {
     const int columns = lab.snapshot->columns, rows = lab.snapshot->rows;
     const auto index = static_cast<int>(work.picked.value_or(0));
     int column = index % columns, row = index / columns;
-    const float width = ImGui::GetFontSize() * 6.5f;
+    const float width = ImGui::GetFontSize() * 5.6f;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Point");
     ImGui::SameLine();
@@ -154,7 +154,6 @@ void point_row(Lab& lab, const sim::StepTrace& trace) {
     if (changed)
         work.picked =
             static_cast<std::uint32_t>(std::clamp(row, 0, rows - 1) * columns + std::clamp(column, 0, columns - 1));
-    ImGui::SameLine();
     ImGui::BeginDisabled(work.stage < 0);
     if (ImGui::Button("Furthest"))
         work.picked = work.stage == 0 ? strongest(trace) : trace.furthest[static_cast<std::size_t>(work.stage)];
