@@ -12,14 +12,14 @@ namespace {
 
 /// States are stored so close that a seek takes this share of what it may; the rest is for the steps within a frame and
 /// for thinning out.
-constexpr double stored_share = 0.3;
+constexpr double stored_share = 0.25;
 /// Of the budget, for states on the way of a seek.
 constexpr std::size_t way_share = 8;
 /// A frame that costs more than a seek may, times this, has states within it; they are the first to be thinned out.
 constexpr double slow_frame = 2;
 constexpr std::uint64_t widest_stride = 16; ///< frames
 /// Of the newest frame in the mean cost of a frame.
-constexpr double newest_share = 0.1;
+constexpr double newest_share = 0.02;
 /// Growth of the strain, relative to the largest so far, that makes a new peak.
 constexpr double new_peak = 1.001;
 
@@ -56,6 +56,8 @@ void Player::start(const sim::Description& description) {
     clock.substeps = stepping.substeps;
     clock.dt = 1 / (stepping.frames_per_second * stepping.substeps);
     line_ = timeline_.add_root(begin, clock);
+    seconds_per_frame_ = slowest_frame_s_ = 0;
+    timed_frames_ = 0;
     timeline_.store(line_, {0, 0, begin, nullptr, false});
     at_ = {};
     begin_branch();
@@ -89,6 +91,10 @@ void Player::put_clock(Branch& branch) {
         branch.clocks.pop_back();
     branch.clocks.push_back({step, simulation_->frame(), simulation_->substep(), stepping.substeps, simulation_->time(),
                              1 / (stepping.frames_per_second * stepping.substeps)});
+}
+
+void Player::fit() {
+    timeline_.fit(std::max(seconds_per_frame_, slowest_frame_s_));
 }
 
 void Player::store_state(Branch& branch, bool kept) {
@@ -157,7 +163,7 @@ void Player::finish_change(Branch& branch) {
     timeline_.revise();
     frame_ = {};
     ++version_;
-    timeline_.fit(seconds_per_frame_);
+    fit();
 }
 
 bool Player::at_end() const {
@@ -223,14 +229,15 @@ void Player::end_frame(Branch& branch) {
     frame_ = {};
 
     const double cost = sum(spent) * description_->stepping.substeps;
-    seconds_per_frame_ =
-        seconds_per_frame_ > 0 ? seconds_per_frame_ + newest_share * (cost - seconds_per_frame_) : cost;
+    seconds_per_frame_ += std::max(newest_share, 1.0 / ++timed_frames_) * (cost - seconds_per_frame_);
+    if (timed_frames_ * newest_share >= 1) // the first ones pay for cold caches
+        slowest_frame_s_ = std::max(slowest_frame_s_, seconds_per_frame_);
     const double stride = cost > 0 ? stored_share * timeline_.options().seek_s / seconds_per_frame_ : 1;
     const auto frames = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(std::min(stride, 1e6)), 1, widest_stride);
     const std::uint64_t stored = frame_time(branch, branch.keyframes.back().step).frame;
     if (sample.frame - stored >= frames) {
         store_state(branch, false);
-        timeline_.fit(seconds_per_frame_);
+        fit();
     }
 }
 
@@ -241,7 +248,7 @@ void Player::store_within_frame(Branch& branch) {
         steps * step_s < slow_frame * timeline_.options().seek_s)
         return;
     store_state(branch, false);
-    timeline_.fit(seconds_per_frame_);
+    fit();
 }
 
 void Player::mark(Branch& branch, MarkKind kind, double value, std::string text) {
@@ -343,7 +350,7 @@ std::uint32_t Player::bookmark(std::string name, std::optional<scene::Camera> ca
     const BranchId owner = timeline_.owner(moment()).id;
     const std::uint32_t id = timeline_.add_bookmark(moment(), std::move(name), std::move(camera));
     store_state(*timeline_.find(owner), true);
-    timeline_.fit(seconds_per_frame_);
+    fit();
     ++version_;
     return id;
 }
@@ -400,7 +407,7 @@ void Player::adopt(Timeline timeline, const Moment& at) {
         throw;
     }
     begin_branch();
-    timeline_.fit(seconds_per_frame_);
+    fit();
 }
 
 void Player::set_options(const CacheOptions& options) {
@@ -409,7 +416,7 @@ void Player::set_options(const CacheOptions& options) {
     CacheOptions stored = options;
     stored.budget -= most_passed_bytes_;
     timeline_.set_options(stored);
-    timeline_.fit(seconds_per_frame_);
+    fit();
     ++version_;
 }
 

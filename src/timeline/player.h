@@ -87,6 +87,7 @@ private:
     void look_for_marks(Branch& branch, const sim::StepCounts& counts);
     void look_for_peak(Branch& branch);
     void store_state(Branch& branch, bool kept);
+    void fit();
     void put_clock(Branch& branch);
     void finish_change(Branch& branch);
     void begin_branch();
@@ -109,7 +110,10 @@ private:
     std::optional<BeforeChange> before_change_;
     FrameSoFar frame_;
     std::array<bool, mark_kinds> found_{}; ///< on the line shown, once for all
-    double seconds_per_frame_ = 0;         ///< that a step takes, times steps per frame; a running mean
+    /// What a step takes, times steps per frame: the mean of the newest frames of this run, and its largest so far, for
+    /// which states that are there already must be close enough.
+    double seconds_per_frame_ = 0, slowest_frame_s_ = 0;
+    int timed_frames_ = 0;
 };
 
 } // namespace clothlab::timeline

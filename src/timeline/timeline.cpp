@@ -406,14 +406,13 @@ void Timeline::fit(double seconds_per_frame) {
         return static_cast<std::uint64_t>(std::clamp(std::floor(gap), 1.0, 1e6));
     };
     // Gaps that fit into the next wider one a whole number of times, or that could not be reached.
-    const auto thin_to = [&](std::uint64_t widest) {
-        for (auto halvings = std::countr_zero(widest); memory() > most && halvings >= 0; --halvings)
-            thin(most, widest >> halvings);
-    };
-    thin_to(frames(options_.seek_s));
+    const std::uint64_t wanted = frames(options_.seek_s), widest = frames(slowest * options_.seek_s);
+    for (auto halvings = std::countr_zero(wanted); memory() > most && halvings >= 0; --halvings)
+        thin(most, wanted >> halvings);
     if (memory() > most)
         drop(most, false, options_.least_reach_s);
-    thin_to(frames(slowest * options_.seek_s));
+    for (std::uint64_t gap = wanted + 1; memory() > most && gap <= widest; gap += 1 + gap / 8)
+        thin(most, gap);
     for (const bool kept_too : {false, true})
         if (memory() > most)
             drop(most, kept_too, 0);

@@ -17,7 +17,7 @@ struct CacheOptions {
     std::size_t budget = std::size_t{512} << 20; ///< bytes, of all branches together
     /// What a seek may take, in s. States are stored so close together that it suffices, as far as the frames
     /// themselves are faster than that.
-    double seek_s = 0.013;
+    double seek_s = 0.0145;
     /// Simulated seconds that are worth a slower seek, of up to four times that, before their states are dropped.
     double least_reach_s = 60;
     bool operator==(const CacheOptions&) const = default;
