@@ -367,6 +367,8 @@ std::vector<ShaderError> Renderer::shader_errors() const {
 
 /// One part of a split view, or the whole picture.
 void Renderer::Parts::draw_part(const Scene& what, const Surface& surface, DrawReport& report) {
+    if (shadow)
+        cast_shadow(what, surface);
     draw_background(what.options);
     const bool cloth_last = surface.translucent;
     if (!cloth_last)
@@ -415,14 +417,12 @@ DrawReport Renderer::draw(const Scene& what, Target& target) {
     if (projected.cell > 0)
         report.line_width = std::min(report.line_width, std::max(0.5f, projected.cell / 9));
 
-    set_state();
-    parts.set_shadow(what);
-    parts.set_frame(what, target, projected);
-    if (parts.shadow)
-        parts.cast_shadow(what, options.surface);
     target.bind();
+    set_state();
     glClearDepth(1);
     glClear(GL_DEPTH_BUFFER_BIT);
+    parts.set_shadow(what);
+    parts.set_frame(what, target, projected);
     parts.draw_part(what, options.surface, report);
     if (what.right) {
         // Over the left part: a scissor for that too would leave samples of pixels at the divider to nobody.

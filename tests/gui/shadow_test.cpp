@@ -112,6 +112,32 @@ TEST_CASE("A cloth's shadow falls on plane and sphere, in both parts of a split 
     CHECK(with_shadow(studio, scene, true) == on);
 }
 
+TEST_CASE("Each part of a split view has the shadow of its own cloth: of springs alone there is none", "[shadow]") {
+    Studio studio;
+    studio.target = render::Target(160, 90, 1);
+    sim::Snapshot cloth = flat_cloth(12, 12);
+    for (std::size_t i = 0; i < cloth.positions.size(); i += 3)
+        cloth.positions[i + 1] = 1.2f;
+    const std::vector<sim::Collider> colliders = {sim::Plane{}};
+    render::Scene scene = floor_scene(colliders, {2.9f, 4, 0});
+    scene.snapshot = &cloth;
+    scene.options.shadow = true;
+    const render::Surface solid = scene.options.surface;
+    render::Surface springs = shader_of("wireframe");
+    springs.lines = true;
+    for (const bool solid_on_the_right : {true, false}) {
+        scene.options.surface = solid_on_the_right ? solid : springs;
+        const render::Image alone = studio.draw(scene);
+        scene.options.surface = solid_on_the_right ? springs : solid;
+        const render::Image other = studio.draw(scene);
+        REQUIRE(count_differences(alone, other) > 100);
+        scene.right = solid_on_the_right ? solid : springs;
+        scene.divider = 0; // all of the right part
+        CHECK(count_differences(studio.draw(scene), alone) == 0);
+        scene.right.reset();
+    }
+}
+
 TEST_CASE("Nothing shades itself: without anything in the way, a shadow changes no pixel", "[shadow]") {
     Studio studio;
     studio.target.resize(320, 180);
