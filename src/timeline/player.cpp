@@ -56,8 +56,7 @@ void Player::start(const sim::Description& description) {
     clock.substeps = stepping.substeps;
     clock.dt = 1 / (stepping.frames_per_second * stepping.substeps);
     line_ = timeline_.add_root(begin, clock);
-    seconds_per_frame_ = slowest_frame_s_ = 0;
-    timed_frames_ = 0;
+    forget_costs();
     timeline_.store(line_, {0, 0, begin, nullptr, false});
     at_ = {};
     begin_branch();
@@ -91,6 +90,17 @@ void Player::put_clock(Branch& branch) {
         branch.clocks.pop_back();
     branch.clocks.push_back({step, simulation_->frame(), simulation_->substep(), stepping.substeps, simulation_->time(),
                              1 / (stepping.frames_per_second * stepping.substeps)});
+}
+
+void Player::forget_costs() {
+    seconds_per_frame_ = slowest_frame_s_ = 0;
+    timed_frames_ = 0;
+}
+
+void Player::add_cost(double frame_s) {
+    seconds_per_frame_ += std::max(newest_share, 1.0 / ++timed_frames_) * (frame_s - seconds_per_frame_);
+    if (timed_frames_ * newest_share >= 1) // the first ones pay for cold caches
+        slowest_frame_s_ = std::max(slowest_frame_s_, seconds_per_frame_);
 }
 
 void Player::fit() {
@@ -229,9 +239,7 @@ void Player::end_frame(Branch& branch) {
     frame_ = {};
 
     const double cost = sum(spent) * description_->stepping.substeps;
-    seconds_per_frame_ += std::max(newest_share, 1.0 / ++timed_frames_) * (cost - seconds_per_frame_);
-    if (timed_frames_ * newest_share >= 1) // the first ones pay for cold caches
-        slowest_frame_s_ = std::max(slowest_frame_s_, seconds_per_frame_);
+    add_cost(cost);
     const double stride = cost > 0 ? stored_share * timeline_.options().seek_s / seconds_per_frame_ : 1;
     const auto frames = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(std::min(stride, 1e6)), 1, widest_stride);
     const std::uint64_t stored = frame_time(branch, branch.keyframes.back().step).frame;
@@ -407,6 +415,10 @@ void Player::adopt(Timeline timeline, const Moment& at) {
         throw;
     }
     begin_branch();
+    forget_costs();
+    for (const Sample& sample : timeline_.owner(moment()).samples)
+        add_cost(std::accumulate(sample.stage_seconds.begin(), sample.stage_seconds.end(), 0.0) *
+                 description_->stepping.substeps);
     fit();
 }
 

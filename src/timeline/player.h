@@ -87,6 +87,8 @@ private:
     void look_for_marks(Branch& branch, const sim::StepCounts& counts);
     void look_for_peak(Branch& branch);
     void store_state(Branch& branch, bool kept);
+    void forget_costs();
+    void add_cost(double frame_s);
     void fit();
     void put_clock(Branch& branch);
     void finish_change(Branch& branch);

@@ -206,6 +206,21 @@ TEST_CASE("States within frames are thinned out before any frame is lost") {
         REQUIRE(player.timeline().reachable({player.line(), step}));
 }
 
+TEST_CASE("A timeline that is taken over, as from a file, is thinned out by what its frames cost before any is lost") {
+    Player recorded({.seek_s = 0}); // a state at every frame
+    recorded.start(tiny_cloth());
+    for (int n = 0; n < 600; ++n)
+        recorded.step();
+    const std::uint64_t hash = recorded.simulation().hash();
+    Player player({.budget = recorded.memory() * 2 / 3, .seek_s = 1, .least_reach_s = 0});
+    player.adopt(recorded.timeline(), recorded.moment());
+    REQUIRE(player.memory() <= player.options().budget);
+    for (std::uint64_t step = 0; step <= 600; ++step)
+        REQUIRE(player.timeline().reachable({player.line(), step}));
+    REQUIRE(hash_at(player, 300) != hash);
+    REQUIRE(hash_at(player, 600) == hash);
+}
+
 TEST_CASE("With 64 MB a 50 x 50 cloth keeps a minute of frames reachable, exactly") {
     const int frames = sanitized ? 540 : 5400;
     sim::Description description; // the course's: 50 x 50 points, 90 frames/s, 30 substeps

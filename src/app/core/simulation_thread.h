@@ -46,8 +46,8 @@ public:
     /// Another timeline in place of the present one, paused at a moment of it.
     std::uint64_t adopt(timeline::Timeline timeline, const timeline::Moment& at);
 
-    /// What is published says so from now on, though the run may still be in the middle of a step: who asks twice is
-    /// not to be taken at his first word.
+    /// latest() says so at once, though the run may still be in the middle of a step: what a key does next depends on
+    /// it.
     void play(bool on, bool backwards = false);
     /// Pauses and takes this many steps, or goes to the end of this many frames.
     void step(int substeps);

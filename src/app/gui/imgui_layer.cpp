@@ -91,25 +91,21 @@ void ImGuiLayer::begin_frame() {
     ImGui::NewFrame();
 }
 
-void ImGuiLayer::prepare_to_draw(unsigned framebuffer) {
+void ImGuiLayer::render() {
     ImGui::Render();
-    int width = 0, height = 0;
-    window_.framebuffer_size(width, height);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, width, height);
     glClearColor(0.08f, 0.09f, 0.10f, 1);
     if (ImGui::GetIO().WantSaveIniSettings)
         save_layout_if_changed();
 }
 
 void ImGuiLayer::end_frame() {
-    prepare_to_draw(0);
+    render();
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-bool ImGuiLayer::end_frame(unsigned framebuffer, unsigned new_contents) {
-    prepare_to_draw(framebuffer);
+bool ImGuiLayer::end_frame_over_last(unsigned new_contents) {
+    render();
     ImDrawData& data = *ImGui::GetDrawData();
     const std::vector<PixelRect> parts = damage_.update(data, new_contents);
     for (const PixelRect& part : parts)

@@ -21,20 +21,20 @@ public:
     ImGuiLayer& operator=(const ImGuiLayer&) = delete;
 
     void begin_frame();
-    /// Draws the frame into the window.
+    /// Draws the frame into the framebuffer that is bound, of the window's size.
     void end_frame();
-    /// Draws what has changed since the last frame into a framebuffer object of the window's size that still holds that
-    /// one. `new_contents` is a texture that has been drawn into since, 0 for none. False when nothing has changed.
-    bool end_frame(unsigned framebuffer, unsigned new_contents);
-    /// What the framebuffer of the other end_frame() held is lost.
-    void forget_picture() { damage_.forget(); }
+    /// Draws what has changed since the last frame, which that framebuffer still holds. `new_contents` is a texture
+    /// that has been drawn into since, 0 for none. False when nothing has changed.
+    bool end_frame_over_last(unsigned new_contents);
+    /// The last frame is no longer there: the next one is drawn whole.
+    void forget_last() { damage_.forget(); }
     /// Back to the default layout with the next frame.
     void reset_layout() { default_layout_wanted_ = true; }
 
     ImGuiContext* context() const { return context_; }
 
 private:
-    void prepare_to_draw(unsigned framebuffer);
+    void render();
     void load_default_layout();
     void save_layout_if_changed();
 

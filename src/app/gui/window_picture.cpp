@@ -10,21 +10,21 @@ WindowPicture::WindowPicture(Window& window, ImGuiLayer& imgui) : window_(window
 }
 
 bool WindowPicture::draw(unsigned new_contents) {
+    int width = 0, height = 0;
+    window_.framebuffer_size(width, height);
     if (!kept_) {
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        glViewport(0, 0, width, height);
         imgui_.end_frame();
         return true;
     }
-    int width = 0, height = 0;
-    window_.framebuffer_size(width, height);
     if (width != kept_->width() || height != kept_->height()) {
         kept_->resize(width, height);
-        imgui_.forget_picture();
+        imgui_.forget_last();
     }
     kept_->bind();
-    GLint framebuffer = 0;
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
     glDisable(GL_FRAMEBUFFER_SRGB); // the interface's colours are sRGB already
-    changed_ = imgui_.end_frame(static_cast<unsigned>(framebuffer), new_contents);
+    changed_ = imgui_.end_frame_over_last(new_contents);
     changed_ = window_.take_uncovered() || changed_;
     kept_->unbind();
     return changed_;
