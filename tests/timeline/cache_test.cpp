@@ -207,12 +207,12 @@ TEST_CASE("States within frames are thinned out before any frame is lost") {
 }
 
 TEST_CASE("A timeline that is taken over, as from a file, is thinned out by what its frames cost before any is lost") {
-    Player recorded({.seek_s = 0}); // a state at every frame
+    Player recorded({.seek_s = 0}); // a state at every step
     recorded.start(tiny_cloth());
     for (int n = 0; n < 600; ++n)
         recorded.step();
     const std::uint64_t hash = recorded.simulation().hash();
-    Player player({.budget = recorded.memory() * 2 / 3, .seek_s = 1, .least_reach_s = 0});
+    Player player({.budget = recorded.memory() / 3, .seek_s = 1, .least_reach_s = 0});
     player.adopt(recorded.timeline(), recorded.moment());
     REQUIRE(player.memory() <= player.options().budget);
     for (std::uint64_t step = 0; step <= 600; ++step)
