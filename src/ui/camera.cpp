@@ -121,7 +121,7 @@ void move_camera(Lab& lab, float shorter_side) {
     const ImGuiIO& io = ImGui::GetIO();
     scene::Camera camera = scene::camera_of(lab.scene);
     const scene::Camera before = camera;
-    if (ImGui::IsItemActive()) {
+    if (being_dragged()) {
         const double dx = static_cast<double>(io.MouseDelta.x), dy = static_cast<double>(io.MouseDelta.y);
         if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !io.KeyShift) {
             camera.yaw = std::remainder(camera.yaw - 0.35 * dx, 360.0);

@@ -94,7 +94,7 @@ void lamp_handle(Lab& lab, scene::Lamp& lamp, const char* id, const char* name, 
     ImGui::SetNextItemAllowOverlap();
     ImGui::InvisibleButton(id, {2 * half, 2 * half});
     const bool near = ImGui::IsItemHovered() || ImGui::IsItemActive();
-    if (ImGui::IsItemActive()) {
+    if (being_dragged()) {
         const scene::CameraFrame f = scene::frame(camera);
         const ImVec2 moved = ImGui::GetIO().MouseDelta;
         const double r = static_cast<double>(moved.x) * p.metres, u = -static_cast<double>(moved.y) * p.metres;

@@ -229,6 +229,10 @@ bool vector_row(const char* label, const char* help, sim::Vec3& value, const sim
     return value_row(label, help, value, loaded, [&] { return edit_vector(value, min, max, format); });
 }
 
+bool being_dragged() {
+    return ImGui::IsItemActive() && !ImGui::IsItemActivated();
+}
+
 void tooltip(const std::string& text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled))
         return;

@@ -46,6 +46,10 @@ bool vector_row(const char* label, const char* help, sim::Vec3& value, const sim
 /// Shows a wrapped text when the last item is hovered for a moment.
 void tooltip(const std::string& text);
 
+/// Whether the last item follows the mouse. Not yet in the frame of the press, whose motion is the way to the item: all
+/// of it, where a pen is put down.
+bool being_dragged();
+
 /// A square button with an icon and a tooltip.
 bool icon_button(const char* icon, const char* id, const char* help, bool enabled = true);
 

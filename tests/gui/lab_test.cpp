@@ -1,5 +1,6 @@
 // What a lecturer does in the window, done by the test engine.
 #include <imgui.h>
+#include <imgui_test_engine/imgui_te_internal.h>
 
 #include <array>
 #include <catch2/catch_test_macros.hpp>
@@ -213,6 +214,24 @@ TEST_CASE("Dragging in the viewport turns, pans and zooms the camera, dragging i
         user->KeyPress(ImGuiKey_F);
     }));
     CHECK(camera() == scene::fitting_camera(driver.lab().scene.simulation));
+}
+
+TEST_CASE("A pen that is put down elsewhere than it was does not turn the camera, and then drags it") {
+    LabDriver driver;
+    const auto camera = [&] { return *driver.lab().scene.camera; };
+    const scene::Camera start = camera();
+    scene::Camera pressed;
+    REQUIRE(driver.act([&](ImGuiTestContext* user) {
+        user->MouseMoveToPos({500, 200});
+        user->Inputs->MousePosValue = {700, 400}; // there and down within one frame
+        user->MouseDown(ImGuiMouseButton_Left);
+        pressed = camera();
+        user->MouseMoveToPos({710, 400});
+        user->MouseUp(ImGuiMouseButton_Left);
+    }));
+    CHECK(pressed == start);
+    CHECK(camera().yaw == std::remainder(start.yaw - 3.5, 360.0));
+    CHECK(camera().pitch == start.pitch);
 }
 
 TEST_CASE("A scene is opened from the list") {
