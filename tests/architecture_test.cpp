@@ -34,12 +34,13 @@ const std::vector<Layer>& layers() {
         {"ui/",
          {"ui/", "experiments/", "timeline/", "scene/", "sim/"},
          {"imgui", "implot", "ImGuizmo", "TextEditor", "icons_font_awesome_6.h"}},
-        {"app/core/", {"app/core/", "timeline/", "scene/", "sim/"}, {}},
+        {"app/core/", {"app/core/", "experiments/", "timeline/", "scene/", "sim/"}, {}},
         {"app/", {"app/", "ui/", "render/", "experiments/", "timeline/", "scene/", "sim/"}, gui},
         {"cli/gui/", {"cli/", "app/", "ui/", "render/", "experiments/", "timeline/", "scene/", "sim/"}, gui},
         {"cli/",
-         {"cli/command_line.h", "app/core/", "experiments/", "timeline/", "scene/", "sim/"},
-         {"CLI/", "nlohmann/"}},
+         {"cli/command_line.h", "cli/experiment/", "cli/progress_bar.h", "app/core/", "experiments/", "timeline/",
+          "scene/", "sim/"},
+         {"CLI/", "nlohmann/", "fcntl.h", "spawn.h", "sys/", "unistd.h"}},
         {"main.cpp", {"cli/"}, {}},
     };
     return list;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/core/data_folder.h"
+#include "cli/experiment/experiment.h"
 #include "scene/fields.h"
 #include "scene/io.h"
 #include "sim/execution.h"
@@ -15,17 +16,6 @@ namespace {
 
 constexpr int usage_error = 2;
 constexpr const char* no_gui = "this clothlab was built without its GUI and cannot draw";
-
-void add_scene(CLI::App& app, SceneArguments& arguments, bool required) {
-    auto* scene = app.add_option("scene", arguments.scene,
-                                 "Scene file, or the name of one that clothlab comes with (clothlab list scenes)");
-    if (required)
-        scene->required();
-    app.add_option("--set", arguments.settings,
-                   "KEY=VALUE: set a parameter of the scene; repeat for more (clothlab list parameters)")
-        ->take_all()
-        ->allow_extra_args(false);
-}
 
 void add_run(CLI::App& app, RunArguments& a, int& status) {
     auto* run = app.add_subcommand("run", "Simulate a scene without a picture");
@@ -72,14 +62,6 @@ void add_export(CLI::App& app, ExportArguments& a, int& status) {
         ->check(CLI::IsMember({"obj", "ply"}));
     meshes->add_option("--branch", a.branch, "The branch's name (default: the one that was shown)");
     meshes->final_callback([&a, &status] { status = cli::export_meshes(a); });
-}
-
-/// Of --size WIDTHxHEIGHT.
-void read_size(const std::string& size, int& width, int& height) {
-    char end = 0;
-    if (std::sscanf(size.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 || height < 1 || width > 16384 ||
-        height > 16384)
-        throw scene::SceneError("--size " + size + ": write WIDTHxHEIGHT, each from 1 to 16384");
 }
 
 void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiCommands& gui, int& status) {
@@ -173,6 +155,24 @@ void add_bench(CLI::App& app, BenchArguments& a, int& status) {
 
 } // namespace
 
+void add_scene(CLI::App& app, SceneArguments& arguments, bool required) {
+    auto* scene = app.add_option("scene", arguments.scene,
+                                 "Scene file, or the name of one that clothlab comes with (clothlab list scenes)");
+    if (required)
+        scene->required();
+    app.add_option("--set", arguments.settings,
+                   "KEY=VALUE: set a parameter of the scene; repeat for more (clothlab list parameters)")
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
+void read_size(const std::string& size, int& width, int& height) {
+    char end = 0;
+    if (std::sscanf(size.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 || height < 1 || width > 16384 ||
+        height > 16384)
+        throw scene::SceneError("--size " + size + ": write WIDTHxHEIGHT, each from 1 to 16384");
+}
+
 scene::Scene SceneArguments::load() const {
     const std::filesystem::path file = app::scene_path(scene);
     std::error_code error;
@@ -227,6 +227,7 @@ int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
 
     BenchArguments bench;
     add_bench(app, bench, status);
+    add_experiments(app, gui, status);
 
     std::vector<std::string> files;
     auto* validate_command =

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/chart.h"
 #include "scene/scene.h"
 
 namespace clothlab::cli {
@@ -24,6 +25,9 @@ struct SceneArguments {
 /// Sets parameters of a scene, each KEY=VALUE. `option` is the one they came with, for what is wrong with them. Throws
 /// scene::SceneError.
 void apply(const std::vector<std::string>& settings, const std::string& option, scene::Scene& scene);
+
+/// Reads WIDTHxHEIGHT, the value of --size. Throws scene::SceneError.
+void read_size(const std::string& size, int& width, int& height);
 
 struct LabArguments {
     SceneArguments scene;
@@ -97,6 +101,8 @@ struct GuiCommands {
     std::function<int(const TexturesArguments&)> textures;
     std::function<std::vector<TextureRow>()> list_textures;
     std::function<int(const GalleryArguments&)> gallery;
+    /// Draws a chart into a PNG file of a size in px. Throws scene::SceneError when it cannot be written.
+    std::function<void(const experiments::Chart&, const std::string& file, int width, int height)> draw_chart;
 };
 
 int run_program(int argc, const char* const* argv, const GuiCommands& gui);

@@ -12,7 +12,7 @@
 #include "cli/gui/gallery_caption.h"
 #include "cli/gui/gallery_page.h"
 #include "cli/gui/gui_commands.h"
-#include "cli/gui/progress_bar.h"
+#include "cli/progress_bar.h"
 #include "render/image.h"
 #include "scene/error.h"
 #include "support/files.h"

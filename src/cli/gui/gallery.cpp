@@ -23,7 +23,7 @@
 #include "cli/gui/crew.h"
 #include "cli/gui/gallery_montage.h"
 #include "cli/gui/gallery_page.h"
-#include "cli/gui/progress_bar.h"
+#include "cli/progress_bar.h"
 #include "render/label.h"
 #include "scene/error.h"
 

@@ -1,4 +1,4 @@
-#include "cli/gui/progress_bar.h"
+#include "cli/progress_bar.h"
 
 #include <algorithm>
 #include <cmath>
