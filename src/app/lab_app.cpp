@@ -75,6 +75,7 @@ void LabApp::run() {
     // Paused and untouched, the lab rests: a few frames a second keep its state fresh.
     for (;;) {
         const bool busy = lab_.playing || lab_.flight || pictures_.recording() || timeline_desk_.expects_news() ||
+                          experiment_desk_.expects_news() ||
                           ImGui::IsAnyItemActive() || dialog_;
         if (!frame(!busy ? 0.05 : idle_ ? 0.004 : 0))
             return;
@@ -126,6 +127,7 @@ void LabApp::take_published() {
     if (!now.snapshot)
         return;
     timeline_desk_.update(now);
+    experiment_desk_.update(now);
     follow_timeline(now);
     take_opened();
     tell_trouble(lab_.snapshot->diagnostics);
@@ -191,6 +193,7 @@ void LabApp::set_scene(scene::Scene scene, fs::path file) {
 
 void LabApp::show_scene(scene::Scene scene, fs::path file) {
     timeline_desk_.restart();
+    experiment_desk_.restart();
     if (!scene.camera)
         scene.camera = scene::fitting_camera(scene.simulation);
     resolve_textures(scene.look, lab_.shaders, file.parent_path());
@@ -301,6 +304,8 @@ void LabApp::carry_out_requests() {
                     shader_desk_.carry_out(r);
                 } else if constexpr (std::is_same_v<R, ui::TimelineRequest>) {
                     timeline_desk_.carry_out(r);
+                } else if constexpr (std::is_same_v<R, ui::ExperimentRequest>) {
+                    experiment_desk_.carry_out(r);
                 } else if constexpr (std::is_same_v<R, ui::Quit>) {
                     const bool saved = r.drop_unsaved || !ui::has_unsaved_shaders(lab_);
                     quit_ = saved && timeline_desk_.may_quit();

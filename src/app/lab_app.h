@@ -9,6 +9,7 @@
 
 #include "app/core/history.h"
 #include "app/core/simulation_thread.h"
+#include "app/experiment_desk.h"
 #include "app/gui/imgui_layer.h"
 #include "app/gui/shader_desk.h"
 #include "app/gui/window_picture.h"
@@ -114,6 +115,7 @@ private:
     render::DrawReport draw_report_;
     std::unique_ptr<FileDialog> dialog_;
     TimelineDesk timeline_desk_{simulation_, lab_};
+    ExperimentDesk experiment_desk_{simulation_, renderer_, lab_};
     Pictures pictures_{renderer_, simulation_, lab_};
     ui::BrowseForTexture texture_wanted_; ///< what the dialog is for
     unsigned new_contents_ = 0;           ///< the viewport's texture, when it was drawn into for this frame

@@ -94,7 +94,7 @@ struct GalleryArguments {
     int jobs = 0;                  ///< 0: one for each core
 };
 
-/// What needs a GUI, given by the program that has one. Each returns the exit status.
+/// What needs a GUI, given by the program that has one. Those that return a number return the exit status.
 struct GuiCommands {
     std::function<int(const LabArguments&)> lab;
     std::function<int(const RenderArguments&)> render;

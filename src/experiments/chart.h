@@ -25,7 +25,7 @@ struct Series {
     Mark mark = Mark::line_and_points;
     int colour = -1;         ///< a number of the palette: series of one number look alike; -1: the next that is free
     bool emphasised = false; ///< drawn thicker and over the others, such as a Pareto front
-    std::vector<double> x, y;
+    std::vector<double> x = {}, y = {};
     /// The table's row of each point, for what is clicked; empty, or no_row: nothing to click.
     std::vector<std::size_t> rows = {};
     std::vector<double> x_low = {}, x_high = {}; ///< the spread of x, drawn as bars; empty: none

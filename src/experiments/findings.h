@@ -22,6 +22,7 @@ struct Findings {
     std::vector<Settings> settings;
     /// What makes the reference's run, to be drawn as a ghost beside a row's; empty: the scene itself.
     Settings reference;
+    double seconds = 0; ///< simulated, of each run; 0: unknown
     std::vector<Chart> charts;
     std::vector<std::string> sentences; ///< what was found; the most important first
     std::vector<std::string> notes;     ///< how it was measured, and what was left out

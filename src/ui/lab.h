@@ -15,6 +15,7 @@
 
 #include "scene/shader_parameters.h"
 #include "sim/snapshot.h"
+#include "ui/experiment_work.h"
 #include "ui/output.h"
 #include "ui/shader_work.h"
 #include "ui/timeline_view.h"
@@ -76,7 +77,7 @@ struct Quit {
 };
 using Request = std::variant<OpenScene, SaveScene, BrowseForScene, BrowseForTexture, TakePicture, Record, EndRecording,
                              Play, StepFrame, StepSubstep, Restart, SetSpeed, PauseOnTrouble, Undo, Redo, ResetLayout,
-                             ShaderRequest, TimelineRequest, Quit>;
+                             ShaderRequest, TimelineRequest, ExperimentRequest, Quit>;
 
 struct Message {
     bool error = false;
@@ -151,6 +152,7 @@ struct Lab {
     ShaderWork shader_work;
     TimelineWork timeline;
     TimelineView timeline_view;
+    ExperimentWork experiments;
     std::array<bool, panel_count> open = open_at_start;
     std::array<PanelReport, panel_count> report{};
     bool status_bar_drawn = false;

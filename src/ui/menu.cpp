@@ -136,6 +136,11 @@ void file_menu(Lab& lab, Windows& windows) {
         lab.ask(TakePicture{});
     tooltip("Of the viewport, or as the Output window is set, under the next free name");
     ImGui::MenuItem(ICON_FA_PHOTO_FILM "  Pictures and films ...", "Shift+F12", &lab.output.open);
+    if (ImGui::MenuItem(ICON_FA_FILE_LINES "  Write a report ...", nullptr, false, lab.timeline.overview != nullptr))
+        lab.experiments.files.report = true;
+    tooltip(
+        "A folder with an HTML and a Markdown page: parameters, pictures, curves, tables, and the commands to get it "
+        "all again");
     ImGui::Separator();
     if (ImGui::MenuItem(ICON_FA_POWER_OFF "  Quit", "Ctrl+Q"))
         lab.ask(Quit{});
@@ -249,6 +254,10 @@ void draw_menu(Lab& lab) {
             view_menu(lab);
             ImGui::EndMenu();
         }
+        if (ImGui::BeginMenu("Experiments")) {
+            experiments_menu(lab);
+            ImGui::EndMenu();
+        }
         if (ImGui::BeginMenu("Help")) {
             if (ImGui::MenuItem("Keys", "F1"))
                 windows.help = true;
@@ -258,6 +267,7 @@ void draw_menu(Lab& lab) {
     }
     draw_path_window(lab, windows.open, windows.save);
     draw_recording_windows(lab);
+    draw_experiment_windows(lab);
     draw_help_window(windows.help);
 }
 

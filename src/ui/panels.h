@@ -17,6 +17,10 @@ void draw_status_bar(Lab& lab);
 void draw_shader_faults(Lab& lab, ImVec2 corner, ImVec2 size);
 /// Asks what is to become of unsaved shaders when the lab is to be closed.
 void draw_quit_question(Lab& lab);
+/// The entries of the menu of experiments.
+void experiments_menu(Lab& lab);
+/// The windows that ask where findings and reports are to be written.
+void draw_experiment_windows(Lab& lab);
 /// Whether a key of the whole window is pressed, and nobody is typing.
 bool window_key(ImGuiKeyChord chord, ImGuiInputFlags flags = 0);
 /// Keys of the whole window: see shortcuts().

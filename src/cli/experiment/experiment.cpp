@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "cli/progress_bar.h"
+#include "experiments/report.h"
 #include "scene/io.h"
 #include "scene/whole_file.h"
 
@@ -47,15 +47,6 @@ void print(const Findings& findings) {
         std::cout << sentence << "\n";
     for (const std::string& note : findings.notes)
         std::cout << "- " << note << "\n";
-}
-
-/// NAME.png, NAME-2.png, ...
-std::string numbered(const std::string& png, std::size_t i) {
-    if (i == 0)
-        return png;
-    const std::filesystem::path path(png);
-    return (path.parent_path() / (path.stem().string() + "-" + std::to_string(i + 1) + path.extension().string()))
-        .string();
 }
 
 } // namespace
@@ -101,7 +92,7 @@ int conduct(const std::function<Findings(const experiments::Progress&)>& experim
         scene::write_text_file(to_csv(findings.table), output.csv);
     if (!output.png.empty())
         for (std::size_t i = 0; i < findings.charts.size(); ++i)
-            gui.draw_chart(findings.charts[i], numbered(output.png, i), width, height);
+            gui.draw_chart(findings.charts[i], experiments::chart_file(output.png, i), width, height);
     return 0;
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/core/data_folder.h"
 #include "app/ghost_view.h"
+#include "app/gui/chart_picture.h"
 #include "app/gui/film.h"
 #include "app/gui/picture_sequence.h"
 #include "app/lab_app.h"
@@ -213,10 +214,15 @@ int render(const RenderArguments& a) {
     return 0;
 }
 
+void draw_chart(const experiments::Chart& chart, const std::string& file, int width, int height) {
+    const app::Window window(app::Window::Kind::offscreen, width, height, "clothlab");
+    ::clothlab::render::write_png(app::chart_picture(chart, width, height), file);
+}
+
 } // namespace
 
 GuiCommands gui_commands() {
-    return {lab, render, textures, list_textures, gallery};
+    return {lab, render, textures, list_textures, gallery, draw_chart};
 }
 
 } // namespace clothlab::cli
