@@ -29,37 +29,42 @@ std::vector<Interval> halves(std::size_t from, std::size_t to) {
     return {{from, middle}, {middle, to}};
 }
 
+constexpr std::size_t not_judged = static_cast<std::size_t>(-1);
+
 class Refinement {
 public:
-    Refinement(const Lattice& lattice, const LatticeJudge& judge) : columns_(lattice.x.values), judge_(judge) {
+    Refinement(const Lattice& lattice, const LatticeJudge& judge)
+        : lattice_(lattice), columns_(lattice.x.values), judge_(judge) {
         result_.kind.assign(lattice.x.values * lattice.y.values, 0);
-        result_.judged_as.assign(result_.kind.size(), not_judged);
+        result_.like.assign(result_.kind.size(), not_judged);
         for (const auto& [x0, x1] : intervals(lattice.x, lattice.blocks))
             for (const auto& [y0, y1] : intervals(lattice.y, lattice.blocks))
-                result_.blocks.push_back({x0, x1, y0, y1});
+                blocks_.push_back({x0, x1, y0, y1});
     }
 
     Refined run() {
         do
             judge_corners();
         while (divide());
-        for (const LatticeBlock& block : result_.blocks)
-            for (std::size_t y = block.y0; y <= block.y1; ++y)
-                for (std::size_t x = block.x0; x <= block.x1; ++x)
-                    if (result_.judged_as[at(x, y)] == not_judged)
-                        result_.kind[at(x, y)] = result_.kind[at(block.x0, block.y0)];
+        for (const Block& block : blocks_)
+            fill(block);
         return std::move(result_);
     }
 
 private:
+    /// From point to point, corners included.
+    struct Block {
+        std::size_t x0, x1, y0, y1;
+    };
+
     std::size_t at(std::size_t x, std::size_t y) const { return y * columns_ + x; }
 
     void judge_corners() {
         std::vector<std::size_t> wanted;
-        for (const LatticeBlock& block : result_.blocks)
+        for (const Block& block : blocks_)
             for (const std::size_t y : {block.y0, block.y1})
                 for (const std::size_t x : {block.x0, block.x1})
-                    if (result_.judged_as[at(x, y)] == not_judged)
+                    if (result_.like[at(x, y)] == not_judged)
                         wanted.push_back(at(x, y));
         std::sort(wanted.begin(), wanted.end());
         wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
@@ -71,26 +76,30 @@ private:
         const std::vector<int> kinds = judge_(points);
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             result_.kind[wanted[i]] = kinds[i];
-            result_.judged_as[wanted[i]] = result_.judged.size();
+            result_.like[wanted[i]] = result_.judged.size();
             result_.judged.push_back(points[i]);
         }
     }
 
-    bool mixed(const LatticeBlock& block) const {
-        const int first = result_.kind[at(block.x0, block.y0)];
+    bool to_be_divided(const Block& block) const {
+        const std::size_t longest = std::max(block.x1 - block.x0, block.y1 - block.y0);
+        if (longest < 2)
+            return false;
+        const bool by_kind = !lattice_.group || longest > lattice_.fine;
+        const auto what = [&](std::size_t i) { return by_kind ? result_.kind[i] : lattice_.group(result_.kind[i]); };
+        const int first = what(at(block.x0, block.y0));
         for (std::size_t y = block.y0; y <= block.y1; ++y)
             for (std::size_t x = block.x0; x <= block.x1; ++x)
-                if (result_.judged_as[at(x, y)] != not_judged && result_.kind[at(x, y)] != first)
+                if (result_.like[at(x, y)] != not_judged && what(at(x, y)) != first)
                     return true;
         return false;
     }
 
     bool divide() {
-        std::vector<LatticeBlock> blocks;
+        std::vector<Block> blocks;
         bool divided = false;
-        for (const LatticeBlock& block : result_.blocks) {
-            const bool divisible = block.x1 - block.x0 > 1 || block.y1 - block.y0 > 1;
-            if (!divisible || !mixed(block)) {
+        for (const Block& block : blocks_) {
+            if (!to_be_divided(block)) {
                 blocks.push_back(block);
                 continue;
             }
@@ -99,12 +108,26 @@ private:
                 for (const auto& [y0, y1] : halves(block.y0, block.y1))
                     blocks.push_back({x0, x1, y0, y1});
         }
-        result_.blocks = std::move(blocks);
+        blocks_ = std::move(blocks);
         return divided;
     }
 
+    void fill(const Block& block) {
+        for (std::size_t y = block.y0; y <= block.y1; ++y)
+            for (std::size_t x = block.x0; x <= block.x1; ++x) {
+                const std::size_t corner = at(x - block.x0 <= block.x1 - x ? block.x0 : block.x1,
+                                              y - block.y0 <= block.y1 - y ? block.y0 : block.y1);
+                if (result_.like[at(x, y)] != not_judged)
+                    continue;
+                result_.like[at(x, y)] = result_.like[corner];
+                result_.kind[at(x, y)] = result_.kind[corner];
+            }
+    }
+
+    const Lattice& lattice_;
     std::size_t columns_;
     const LatticeJudge& judge_;
+    std::vector<Block> blocks_;
     Refined result_;
 };
 

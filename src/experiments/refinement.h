@@ -21,6 +21,10 @@ struct LatticeSide {
 struct Lattice {
     LatticeSide x, y;
     std::size_t blocks = 8; ///< of the coarse lattice, along a continuous side
+    /// Kinds of one group are less unlike each other: between them, only blocks of more than `fine` steps are divided.
+    /// Without it, every kind is a group of its own.
+    std::function<int(int kind)> group = {};
+    std::size_t fine = 4;
 };
 
 /// From point to point, corners included.
@@ -32,17 +36,21 @@ struct LatticeBlock {
 using LatticeJudge = std::function<std::vector<int>(const std::vector<LatticePoint>&)>;
 
 struct Refined {
-    std::vector<LatticePoint> judged;   ///< in the order in which they were
-    std::vector<int> kind;              ///< of all points, row by row (y * values of x + x)
-    std::vector<std::size_t> judged_as; ///< of all points: a place in `judged`, for those that were not, not_judged
-    std::vector<LatticeBlock> blocks;   ///< that were not divided further; of one kind each, or without inner points
+    std::vector<LatticePoint> judged; ///< in the order in which they were
+    /// Of all points, row by row (y * values of x + x): the place in `judged` of the point that this one is taken to be
+    /// like, the nearest corner of the block around it; itself, where it was judged.
+    std::vector<std::size_t> like;
+    std::vector<int> kind; ///< of all points
+
+    bool was_judged(LatticePoint point, std::size_t columns) const {
+        return judged[like[point.y * columns + point.x]] == point;
+    }
 };
-inline constexpr std::size_t not_judged = static_cast<std::size_t>(-1);
 
 /// Judges a coarse lattice, then divides what has judged points of different kinds in it or on its rim, again and
 /// again, until those are next to each other. So a border is followed wherever it leads, into blocks whose corners are
-/// alike too: regions that at least one judged point lies in are found exactly. One that lies between the points of the
-/// coarse lattice altogether is not seen. A point that was not judged is what the block around it is.
+/// alike too: regions (of groups) that at least one judged point lies in are found exactly. One that lies between the
+/// points of the coarse lattice altogether is not seen.
 Refined refine(const Lattice& lattice, const LatticeJudge& judge);
 
 } // namespace clothlab::experiments

@@ -8,6 +8,7 @@
 #include "experiments/fastest_mode.h"
 #include "experiments/findings.h"
 #include "experiments/start_displacement.h"
+#include "experiments/unrest.h"
 #include "sim/integrators/integrator.h"
 #include "sim/simulation.h"
 
@@ -21,11 +22,16 @@ constexpr std::uint64_t frames_between_poses = 10;
 constexpr std::size_t fitted_steps = 400;
 constexpr double least_gain = 1e-8;
 
-/// Whether a growth of this run's method can be fitted: one step of its own, without a tolerance, in double precision.
-bool can_be_fitted(const sim::Stepping& stepping) {
+std::string text(const char* format, auto... arguments) {
+    char buffer[200];
+    std::snprintf(buffer, sizeof buffer, format, arguments...);
+    return buffer;
+}
+
+/// Whether a step is one step of an explicit method, not divided by a tolerance: only those have a limit.
+bool has_own_steps(const sim::Stepping& stepping) {
     const sim::IntegratorTraits& method = sim::traits(stepping.integrator);
-    return stepping.precision == sim::Precision::double_precision && method.family == sim::Family::explicit_method &&
-           !(method.divides_steps && stepping.tolerance > 0);
+    return method.family == sim::Family::explicit_method && !(method.divides_steps && stepping.tolerance > 0);
 }
 
 /// Whether a frame leaves every point where it starts, to rounding.
@@ -96,7 +102,8 @@ Judged judge(const sim::Description& description, const JudgeConfig& config, con
         result.omega_dt = result.pose_omega_dt = margin.omega_dt;
 
         std::optional<std::vector<sim::Vec3>> mode;
-        if (can_be_fitted(description.stepping) && stays(description))
+        if (description.stepping.precision == sim::Precision::double_precision && has_own_steps(description.stepping) &&
+            stays(description))
             mode = fastest_mode(description);
         std::optional<ModeSeries> series;
         if (mode)
@@ -106,8 +113,13 @@ Judged judge(const sim::Description& description, const JudgeConfig& config, con
         if (series)
             series->add(*simulation);
 
+        std::optional<Unrest> unrest;
+        if (has_own_steps(description.stepping))
+            unrest.emplace(description);
+
         const std::uint64_t frames = frames_of(description, config);
         std::uint64_t end = frames;
+        std::optional<double> unrest_since;
         while (simulation->frame() < end) {
             const std::uint64_t frame = simulation->frame();
             while (simulation->frame() == frame) {
@@ -116,10 +128,14 @@ Judged judge(const sim::Description& description, const JudgeConfig& config, con
                 simulation->step();
                 if (series && !series->full())
                     series->add(*simulation);
+                if (unrest)
+                    unrest->after_step(*simulation);
             }
             if (simulation->trouble() && simulation->trouble()->status == sim::Status::diverged)
                 break;
-            if (simulation->trouble() && end == frames)
+            if (unrest && unrest->found() && !unrest_since)
+                unrest_since = simulation->time();
+            if ((simulation->trouble() || unrest_since) && end == frames)
                 end = std::min(frames, simulation->frame() + frames_of_jitter);
             if (poses && simulation->frame() % frames_between_poses == 0)
                 result.pose_omega_dt = std::max(result.pose_omega_dt, simulation->stability().omega_dt);
@@ -132,12 +148,14 @@ Judged judge(const sim::Description& description, const JudgeConfig& config, con
             result.verdict = trouble->status == sim::Status::diverged ? Verdict::diverged : Verdict::jittering;
             result.time = trouble->time;
             result.cause = trouble->cause;
+        } else if (unrest_since) {
+            result.verdict = Verdict::jittering;
+            result.time = *unrest_since;
+            result.cause = text("at %.4g s (frame %.0f) points turn round in every step or two, under their motion",
+                                *unrest_since, *unrest_since * description.stepping.frames_per_second);
         } else if (result.gain && *result.gain > least_gain) {
             result.verdict = Verdict::growing;
-            char text[96];
-            std::snprintf(text, sizeof text, "the fastest oscillation gains %.3g of itself in every step",
-                          *result.gain);
-            result.cause = text;
+            result.cause = text("the fastest oscillation gains %.3g of itself in every step", *result.gain);
         }
     } catch (const std::invalid_argument& e) {
         throw Refusal(e.what());

@@ -50,8 +50,8 @@ std::uint64_t frames_of(const sim::Description& description, const JudgeConfig& 
 /// At the start, points that are not pinned are moved a little, because a symmetric cloth has nothing of the fastest
 /// mode, and what is zero does not grow. Where the cloth stays where it starts without that (a straight chain, no
 /// gravity), it is moved in the shape of its fastest mode, and otherwise at random, the same in every run. Then
-/// sim::Monitor looks at the end of every frame (Simulation::watch). A divergence ends the run; a jitter ends it some
-/// frames later, in which it may still diverge.
+/// sim::Monitor looks at the end of every frame (Simulation::watch), and Unrest for what it does not see. A divergence
+/// ends the run; a jitter ends it some frames later, in which it may still diverge.
 ///
 /// Of a cloth that stays where it starts all motion is that mode, and a step of any explicit one step method on it
 /// obeys x(n+1) = s x(n) - p x(n-1): s and p are fitted to the run's own first steps, and the larger root says what a

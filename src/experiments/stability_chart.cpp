@@ -22,13 +22,7 @@ public:
         chart_.y = p_.y.chart_axis();
         for (std::size_t i = 0; i < verdict_names.size(); ++i)
             chart_.cell_kinds.push_back({verdict_names[i], colours[i]});
-        const std::size_t columns = p_.x.values.size();
-        for (std::size_t i = 0; i < p_.refined.judged.size(); ++i) {
-            const auto [x, y] = p_.refined.judged[i];
-            add_cell({x, x, y, y}, p_.refined.kind[y * columns + x], i);
-        }
-        for (const LatticeBlock& block : p_.refined.blocks)
-            add_unjudged(block);
+        add_cells();
 
         std::size_t ranks = 0;
         for (const BoundaryPoint& point : p_.border)
@@ -51,28 +45,18 @@ public:
     }
 
 private:
-    void add_cell(const LatticeBlock& b, int kind, std::size_t row) {
-        chart_.cells.push_back({p_.x.border(b.x0), p_.x.border(b.x1 + 1), p_.y.border(b.y0), p_.y.border(b.y1 + 1),
-                                static_cast<std::size_t>(kind), row});
-    }
-
-    /// What lies between a block's judged points: in rows of its longest stretches of points that were not.
-    void add_unjudged(const LatticeBlock& block) {
+    /// A cell for each run; what is like it beside it, in rows of those that are next to each other.
+    void add_cells() {
         const std::size_t columns = p_.x.values.size();
-        const auto open = [&](std::size_t x, std::size_t y) {
-            // A rim that two blocks share belongs to the one above or to the right of it.
-            return p_.refined.judged_as[y * columns + x] == not_judged && (x < block.x1 || x + 1 == columns) &&
-                   (y < block.y1 || y + 1 == p_.y.values.size());
-        };
-        const std::size_t corner = block.y0 * columns + block.x0;
-        for (std::size_t y = block.y0; y <= block.y1; ++y)
-            for (std::size_t x = block.x0; x <= block.x1; ++x) {
-                if (!open(x, y))
-                    continue;
-                const std::size_t from = x;
-                while (x + 1 <= block.x1 && open(x + 1, y))
-                    ++x;
-                add_cell({from, x, y, y}, p_.refined.kind[corner], p_.refined.judged_as[corner]);
+        for (std::size_t y = 0; y < p_.y.values.size(); ++y)
+            for (std::size_t x = 0; x < columns; ++x) {
+                const std::size_t first = x, row = p_.refined.like[y * columns + x];
+                if (!p_.refined.was_judged({x, y}, columns))
+                    while (x + 1 < columns && p_.refined.like[y * columns + x + 1] == row &&
+                           !p_.refined.was_judged({x + 1, y}, columns))
+                        ++x;
+                chart_.cells.push_back({p_.x.border(first), p_.x.border(x + 1), p_.y.border(y), p_.y.border(y + 1),
+                                        static_cast<std::size_t>(p_.refined.kind[y * columns + x]), row});
             }
     }
 

@@ -35,8 +35,11 @@ public:
     }
 
     Findings run() {
-        refined_ = refine({{x_.values.size(), !x_.categorical}, {y_.values.size(), !y_.categorical}, config_.blocks},
-                          [this](const std::vector<LatticePoint>& points) { return judge_all(points); });
+        const Lattice lattice{.x = {x_.values.size(), !x_.categorical},
+                              .y = {y_.values.size(), !y_.categorical},
+                              .blocks = config_.blocks,
+                              .group = [](int kind) { return kind == static_cast<int>(Verdict::stable) ? 0 : 1; }};
+        refined_ = refine(lattice, [this](const std::vector<LatticePoint>& points) { return judge_all(points); });
         predict();
         const std::size_t columns = x_.values.size();
         border_ = boundary(
@@ -149,9 +152,7 @@ private:
         for (const BoundaryPoint& point : border_) {
             const std::size_t i = point.stable_below ? point.below : point.below + 1;
             const std::size_t x = along_x_ ? i : point.line, y = along_x_ ? point.line : i;
-            const std::size_t row = refined_.judged_as[y * x_.values.size() + x];
-            if (row == not_judged)
-                continue;
+            const std::size_t row = refined_.like[y * x_.values.size() + x];
             if (point.predicted) {
                 table.rows[row][5] = *point.predicted;
                 table.rows[row][7] = *point.distance();
