@@ -144,13 +144,13 @@ public:
         for (const sim::IntegratorInfo& method : sim::integrators()) {
             if (method.id == of_.stepping.integrator)
                 continue;
-            const std::string change = "simulation.integrator=" + std::string(method.name);
-            const std::string title(method.title);
-            coarsen(Part::method, words::counted(of_.stepping.substeps, "substep") + " of " + title, {change});
-            for (const int n : fewer(of_.stepping.substeps, {1.0 / 2, 1.0 / 4, 1.0 / 8, 1.0 / 16, 1.0 / 32}, 1)) {
-                Settings settings{change};
-                settings = joined(settings, with_substeps(n));
-                coarsen(Part::method, words::counted(n, "substep") + " of " + title, settings);
+            std::vector<int> levels = fewer(of_.stepping.substeps, {1.0 / 2, 1.0 / 4, 1.0 / 8, 1.0 / 16, 1.0 / 32}, 1);
+            levels.insert(levels.begin(), of_.stepping.substeps);
+            for (auto n = levels.rbegin(); n != levels.rend(); ++n) {
+                Settings settings{"simulation.integrator=" + std::string(method.name)};
+                if (*n != of_.stepping.substeps)
+                    settings = joined(settings, with_substeps(*n));
+                coarsen(Part::method, words::counted(*n, "substep") + " of " + std::string(method.title), settings);
             }
         }
     }

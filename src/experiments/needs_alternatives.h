@@ -37,7 +37,8 @@ struct Alternative {
 
 /// Everything that can be left out of this model or made coarser, in the order of Part. What it has not, such as wind,
 /// is not among them, nor is what would set a key of `kept` or of a section in it. With fewer substeps goes the
-/// course's damping per substep that takes as much of the motion in a second.
+/// course's damping per substep that takes as much of the motion in a second. Of a method, few substeps come before
+/// many.
 std::vector<Alternative> alternatives(const scene::Scene& model, const std::vector<std::string>& kept);
 
 /// The settings one after the other, without those that a later one overrides.

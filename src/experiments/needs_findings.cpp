@@ -97,10 +97,11 @@ struct Stages {
 Stages fill_table(const Config& config, const Found& found, Findings& findings) {
     Rows rows(config, findings);
     Stages first;
-    rows.add("full model", "the scene as it is", found.full);
+    rows.add("full model", found.full.what, found.full);
+    findings.table.rows.back().back() = "the yardstick";
     first.alone = findings.table.rows.size();
     for (const Trial& trial : found.alone)
-        rows.add("one left out", trial.what, trial);
+        rows.add("alone", trial.what, trial);
     first.path = findings.table.rows.size();
     for (std::size_t i = 0; i < found.path.size(); ++i)
         rows.add(found.path[i].proof.empty() ? "greedy" : "free", (i == 0 ? "" : "and ") + found.path[i].what,
@@ -260,11 +261,9 @@ std::vector<std::string> notes_of(const Config& config, const Found& found) {
     else
         notes.push_back(
             "Costs are wall time of the steps alone, in " + words::counted(config.threads, "thread") +
-            ": medians of 3 rounds by turns with the full model, the last ones of 7, where there is a spread "
-            "((largest - smallest) / median); else of one run. Faster means by at least " +
-            number(100 * least_gain) +
-            " %. What took much longer than the model that it was to improve "
-            "was given up.");
+            ": medians of 3 rounds by turns with the full model, of 7 for the recommended one, with their spread, "
+            "(largest - smallest) / median. Faster means by at least " +
+            number(100 * least_gain) + " %.");
     notes.emplace_back(
         "With fewer substeps, the course's damping per substep is raised so that as much of the motion is "
         "lost in a second.");

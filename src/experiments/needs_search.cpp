@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 
 #include "experiments/needs_chaos.h"
+#include "experiments/needs_words.h"
 
 namespace clothlab::experiments::needs {
 namespace {
 
 constexpr int rounds = 3, final_rounds = 7;
 /// Models that take so many times the time of the one to beat are given up.
-constexpr double much_slower_alone = 2, much_slower = 1.5;
+constexpr double much_slower = 2;
 
 class Search {
 public:
@@ -49,19 +52,44 @@ private:
         found_.noise = noise_of(config_, found_.yardstick, nudged, found_.nudge);
         model_.what = "the scene as it is";
         model_.scene = config_.scene;
-        model_.wall_s = found_.yardstick.wall_s;
         found_.full = model_;
+        tell(0.015, "timing the full model");
+        time({}, rounds);
         visited_.push_back(model_.scene.simulation);
     }
 
-    /// Runs the model with an alternative to it.
-    Trial judge(const Alternative& alternative, double most_wall_s) {
+    /// Runs the present model with each of these alternatives to it; `share` of the work is done when it begins, and
+    /// `share + span` when it ends.
+    std::vector<Trial> judge_all(const std::vector<Alternative>& all, double share, double span) {
+        std::vector<Trial> trials;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            tell(share + span * static_cast<double>(i) / static_cast<double>(all.size()), all[i].what);
+            Trial trial = made(all[i]);
+            const bool hopeless = is_hopeless(trial, trials);
+            if (hopeless) {
+                trial.verdict = Verdict::slower;
+                trial.deviation = std::numeric_limits<double>::quiet_NaN();
+                trial.trouble = "not run: much slower already with fewer substeps";
+            } else {
+                judge(trial, much_slower * model_.cost.median * found_.course.seconds);
+            }
+            trials.push_back(std::move(trial));
+        }
+        return trials;
+    }
+
+    /// Methods come with few substeps first: one that is much too slow already is not tried with more.
+    static bool is_hopeless(const Trial& trial, const std::vector<Trial>& before) {
+        return trial.alternative.part == Part::method && !before.empty() && before.back().verdict == Verdict::slower &&
+               before.back().scene.simulation.stepping.integrator == trial.scene.simulation.stepping.integrator;
+    }
+
+    Trial made(const Alternative& alternative) const {
         Trial trial;
         trial.what = alternative.what;
         trial.alternative = alternative;
         trial.settings = joined(model_.settings, alternative.settings);
         trial.scene = with(config_.scene, trial.settings);
-        judge(trial, most_wall_s);
         return trial;
     }
 
@@ -75,26 +103,16 @@ private:
             trial.trouble = run.trouble->status == sim::Status::jitter ? "jitters" : "diverges";
         } else if (run.given_up) {
             trial.verdict = Verdict::slower;
-            trial.trouble = "given up: slower";
+            trial.trouble =
+                "given up: took " + words::number(much_slower) + " x the time of the model that it was to improve";
         } else {
             trial.deviation = deviation(config_.quantity, found_.yardstick, run, config_.at_end);
             trial.verdict = trial.deviation <= config_.tolerance ? Verdict::within : Verdict::breaks;
         }
-        if (run.simulated_s > 0 && !run.trouble) // of a failed run it means nothing
-            set_cost(trial, run.wall_s / run.simulated_s, found_.yardstick.wall_s / found_.yardstick.simulated_s);
         hash_ = run.hash;
     }
 
-    void set_cost(Trial& trial, double cost, double full) const {
-        if (config_.known_cost) {
-            cost = config_.known_cost(trial.scene.simulation);
-            full = config_.known_cost(config_.scene.simulation);
-        }
-        trial.cost = {cost, cost, cost};
-        trial.speed_up = full / cost;
-    }
-
-    /// Times these beside the full model and, where it is another, the present one.
+    /// Times these beside the full model and the present one.
     void time(const std::vector<Trial*>& trials, int how_often) {
         std::vector<sim::Description> models{config_.scene.simulation, model_.scene.simulation};
         for (const Trial* trial : trials)
@@ -111,29 +129,31 @@ private:
             set(*trials[i], i + 2);
     }
 
+    /// Those of the trials that ran to the end and were not timed since.
+    static std::vector<Trial*> not_timed(std::vector<Trial>& trials) {
+        std::vector<Trial*> list;
+        for (Trial& trial : trials)
+            if (!trial.timed && (trial.verdict == Verdict::within || trial.verdict == Verdict::breaks))
+                list.push_back(&trial);
+        return list;
+    }
+
     void leave_out_alone() {
-        const std::vector<Alternative> all = alternatives(config_.scene, config_.kept);
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            tell(0.02 + 0.3 * static_cast<double>(i) / static_cast<double>(all.size()), all[i].what);
-            if (const auto why = proof(all[i], config_.scene.simulation, found_.yardstick.deeds)) {
-                Trial trial;
-                trial.what = all[i].what;
-                trial.alternative = all[i];
-                trial.settings = all[i].settings;
-                trial.scene = with(config_.scene, trial.settings);
+        std::vector<Alternative> tried;
+        for (const Alternative& one : alternatives(config_.scene, config_.kept)) {
+            if (const auto why = proof(one, config_.scene.simulation, found_.yardstick.deeds)) {
+                Trial trial = made(one);
                 trial.proof = {*why};
-                free_.push_back(all[i]);
+                free_.push_back(one);
                 found_.alone.push_back(std::move(trial));
             } else {
-                found_.alone.push_back(judge(all[i], much_slower_alone * model_.wall_s));
+                tried.push_back(one);
             }
         }
+        std::vector<Trial> trials = judge_all(tried, 0.02, 0.3);
+        std::move(trials.begin(), trials.end(), std::back_inserter(found_.alone));
         tell(0.32, "timing each");
-        std::vector<Trial*> timed;
-        for (Trial& trial : found_.alone)
-            if (trial.verdict == Verdict::within || trial.verdict == Verdict::breaks)
-                timed.push_back(&trial);
-        time(timed, rounds);
+        time(not_timed(found_.alone), rounds);
     }
 
     void drop_what_is_free() {
@@ -168,11 +188,7 @@ private:
     bool take_another() {
         const double share = 0.9 - 0.4 * std::pow(0.7, static_cast<double>(found_.path.size()));
         const std::vector<Alternative> all = alternatives(model_.scene, config_.kept);
-        std::vector<Trial> trials;
-        for (const Alternative& one : all) {
-            tell(share, "after " + model_.what + ": " + one.what);
-            trials.push_back(judge(one, much_slower * model_.wall_s));
-        }
+        std::vector<Trial> trials = judge_all(all, share, 0);
         std::vector<Trial*> fit;
         for (Trial& trial : trials)
             if (trial.verdict == Verdict::within && !was_visited(trial))
@@ -204,6 +220,7 @@ private:
             return true;
         }
         found_.more = std::move(trials);
+        time(not_timed(found_.more), rounds);
         return false;
     }
 
