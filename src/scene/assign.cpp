@@ -127,6 +127,18 @@ std::optional<std::pair<std::size_t, std::string_view>> collider_key(const Scene
     return std::pair{index, rest.substr(second + 1)};
 }
 
+/// The collider N of the key `colliders.N` with the value `none`: it is to go.
+std::optional<std::size_t> collider_to_remove(const Scene& scene, std::string_view key, const Document& value) {
+    constexpr std::string_view prefix = "colliders.";
+    if (!key.starts_with(prefix) || value.root.type != Node::Type::string || value.root.text != "none")
+        return std::nullopt;
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(key.data() + prefix.size(), key.data() + key.size(), index);
+    if (error != std::errc{} || end != key.data() + key.size() || index >= scene.simulation.colliders.size())
+        return std::nullopt;
+    return index;
+}
+
 /// Shader and parameter of `look.shaders.SHADER.PARAMETER`; nothing for another key.
 std::optional<std::pair<std::string, std::string>> shader_key(std::string_view key) {
     constexpr std::string_view prefix = "look.shaders.";
@@ -161,6 +173,11 @@ void set_parameter(Scene& scene, std::string_view key, std::string_view value) {
             return void(scene.simulation.stepping.accelerations = reader.vectors(document.root, name));
         if (const auto parts = shader_key(key))
             return void(scene.look.shaders[parts->first][parts->second] = reader.shader_value(document.root, name));
+        if (const auto index = collider_to_remove(scene, key, document)) {
+            auto& colliders = scene.simulation.colliders;
+            colliders.erase(colliders.begin() + static_cast<std::ptrdiff_t>(*index));
+            return;
+        }
         if (const auto collider = collider_key(scene, key, document))
             return set_collider(scene, collider->first, collider->second, document, name);
         if (const Field* f = find_field(key))

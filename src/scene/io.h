@@ -28,7 +28,8 @@ void save_scene(const Scene& scene, const std::filesystem::path& file);
 
 /// Sets one parameter from text: `key` as in fields(), or `rules` (all at once), `name`, `description`, `cloth.pinned`,
 /// `simulation.accelerations`, `look.shaders.SHADER.PARAMETER`, `sphere.*` and `plane.*` (the first of that kind),
-/// `colliders.N.*`. Throws SceneError. Call check() after the last one.
+/// `colliders.N.*`, or `colliders.N` with the value `none`, which takes that collider away: those behind it move up.
+/// Throws SceneError. Call check() after the last one.
 void set_parameter(Scene& scene, std::string_view key, std::string_view value);
 
 /// Throws SceneError for values that do not go together (a pin outside the grid, too many points). `source` begins the

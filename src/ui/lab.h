@@ -171,9 +171,6 @@ const scene::ShaderDeclaration* shader_on_the_right(const Lab& lab);
 /// Whether the shader panel has texts that are not in their files.
 bool has_unsaved_shaders(const Lab& lab);
 
-/// Changes the number of points along width or height and moves the pins to where they belong on the new grid.
-void resize_grid(scene::Scene& scene, int columns, int rows);
-
 /// Draws the menu, every open panel and the status bar, and handles the keys.
 void draw(Lab& lab);
 

@@ -4,6 +4,7 @@
 #include <cstdarg>
 #include <imgui.h>
 
+#include "scene/resize.h"
 #include "ui/icons.h"
 #include "ui/theme.h"
 
@@ -29,9 +30,9 @@ void assign(Lab& lab, const Field& f, double value) {
     }
     const sim::Cloth& cloth = lab.scene.simulation.cloth;
     if (f.key == "cloth.num_width_points")
-        resize_grid(lab.scene, static_cast<int>(value), cloth.num_height_points);
+        scene::resize_grid(lab.scene, static_cast<int>(value), cloth.num_height_points);
     else if (f.key == "cloth.num_height_points")
-        resize_grid(lab.scene, cloth.num_width_points, static_cast<int>(value));
+        scene::resize_grid(lab.scene, cloth.num_width_points, static_cast<int>(value));
     else
         f.set(lab.scene, value);
 }

@@ -196,6 +196,15 @@ TEST_CASE("Colliders are set by kind, the first of it, and by number") {
     REQUIRE(set("colliders.2.friction", "1") == expected);
 }
 
+TEST_CASE("A collider is taken away with none, and those behind it move up") {
+    const auto all = collision_scene().simulation.colliders;
+    const scene::Scene without = with("colliders.1", "none", collision_scene());
+    REQUIRE(without.simulation.colliders == std::vector<sim::Collider>{all[0], all[2]});
+    REQUIRE(with("colliders.1", "none", without).simulation.colliders == std::vector<sim::Collider>{all[0]});
+    for (const char* key : {"colliders.3", "colliders.x", "colliders.", "colliders.0x", "colliders"})
+        require_refused(key, "none", {key});
+}
+
 TEST_CASE("A collider that is not there, and a member it has not, are refused") {
     require_refused("sphere.radius", "1", {"no sphere"}, {});
     require_refused("plane.friction", "1", {"no plane"}, {});
