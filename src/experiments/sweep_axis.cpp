@@ -156,7 +156,10 @@ SweepAxis parse_axis(std::string_view text) {
 
 std::string number_text(double value) {
     char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value == 0 ? 0.0 : value).ptr;
+    value = value == 0 ? 0 : value; // not -0
+    const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
+    const auto end = whole ? std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed).ptr
+                           : std::to_chars(digits, digits + sizeof digits, value).ptr;
     return {digits, end};
 }
 

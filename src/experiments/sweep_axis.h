@@ -24,7 +24,7 @@ struct SweepAxis {
 /// belong to the value. Throws scene::SceneError, which begins with "--vary" and the text.
 SweepAxis parse_axis(std::string_view text);
 
-/// A number in the fewest digits that are read back as the same.
+/// A number in the fewest digits that are read back as the same; whole ones without an exponent up to 1e15.
 std::string number_text(double value);
 
 } // namespace clothlab::experiments

@@ -29,6 +29,17 @@ bool holds_text(const Sweep& sweep, const std::string& column) {
                        [&](const SweepAxis& axis) { return axis.key == column && !axis.numeric; });
 }
 
+constexpr const char* damaged = "the line is damaged";
+
+/// None where it cannot be read.
+std::vector<std::string> cells_of(std::string_view line) {
+    try {
+        return csv_cells(line);
+    } catch (const std::invalid_argument&) {
+        return {};
+    }
+}
+
 /// Calls visit(number, line) for every whole line; returns how many bytes they are.
 template <class Visit>
 std::size_t for_each_line(std::string_view text, const Visit& visit) {
@@ -103,7 +114,7 @@ private:
         if (header_.empty()) {
             header_ = line;
             header_file_ = file;
-            names_ = csv_cells(line);
+            names_ = cells_of(line);
             if (column_of(names_, "cell") == names_.size() || column_of(names_, "sweep") == names_.size())
                 fail(file + ": is not the table of a sweep");
         } else if (line != header_) {
@@ -113,17 +124,13 @@ private:
 
     void add_line(const std::string& file, std::size_t number, std::string_view line) {
         const std::string place = file + ":" + std::to_string(number) + ": ";
-        std::vector<std::string> cells;
+        const std::vector<std::string> cells = cells_of(line);
         std::size_t cell = 0, total = 0;
-        try {
-            cells = csv_cells(line);
-        } catch (const std::invalid_argument&) {
-        }
         if (cells.size() != names_.size() || !read(cells[column_of(names_, "cell")], cell))
-            fail(place + "the line is damaged");
+            fail(place + damaged);
         const std::string& identity = cells[column_of(names_, "sweep")];
         if (!read(identity.substr(0, identity.find('-')), total) || cell >= total)
-            fail(place + "the line is damaged");
+            fail(place + damaged);
         if (identity_.empty()) {
             identity_ = identity;
             identity_file_ = file;
@@ -158,10 +165,9 @@ std::string sweep_line(const std::vector<Value>& row) {
 }
 
 std::vector<Value> sweep_row(const Sweep& sweep, std::string_view line) {
-    const std::vector<std::string> cells = csv_cells(line);
+    const std::vector<std::string> cells = cells_of(line);
     if (cells.size() != sweep.columns().size())
-        throw std::invalid_argument(std::to_string(cells.size()) + " cells, where the first line has " +
-                                    std::to_string(sweep.columns().size()));
+        throw std::invalid_argument(damaged);
     std::vector<Value> row;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::string& name = sweep.columns()[i].name;
@@ -173,7 +179,7 @@ std::vector<Value> sweep_row(const Sweep& sweep, std::string_view line) {
     const double* cell = std::get_if<double>(&row.front());
     if (!cell || !(*cell >= 0 && *cell < static_cast<double>(sweep.cells())) ||
         sweep_line(row) != std::string(line) + "\n")
-        throw std::invalid_argument("the line is damaged");
+        throw std::invalid_argument(damaged);
     return row;
 }
 

@@ -1,6 +1,7 @@
 // clothlab experiment sweep and merge, as a program: stopped at any moment, in shards, by any number of processes, the
 // table has the same bytes.
 #include <csignal>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -24,7 +25,7 @@ Words sweep_of(const std::string& scene, const Words& rest) {
 Words usual(const std::string& scene, const Words& rest = {}) {
     Words all = sweep_of(scene, {"--vary", "cloth.ks=100:10000:4log", "--vary",
                                  "simulation.integrator=course-verlet,rk4,"
-                                 "implicit-euler",
+                                 "backward-euler",
                                  "--frames", "60"});
     all.insert(all.end(), rest.begin(), rest.end());
     return all;
@@ -116,6 +117,8 @@ private:
 std::vector<pid_t> children_of(pid_t process) {
     std::vector<pid_t> children;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        if (entry.path().filename().string().find_first_not_of("0123456789") != std::string::npos)
+            continue;
         std::ifstream stat(entry.path() / "stat");
         std::string text{std::istreambuf_iterator<char>(stat), {}};
         const std::size_t name_end = text.rfind(')'); // "17 (clothlab) S 16 ..."
@@ -158,7 +161,7 @@ TEST_CASE("A sweep has the same bytes for any number of processes, in a file and
     REQUIRE(succeed(usual(scene, {"--csv", "-"})).out == table);
     // The last cell, by the command that runs it alone.
     const std::string hash = run(scene, {"--frames", "60", "--hash", "--set", "cloth.ks=10000", "--set",
-                                         "simulation.integrator=implicit-euler"});
+                                         "simulation.integrator=backward-euler"});
     REQUIRE(table.find("," + hash.substr(0, 16) + ",") > table.rfind('\n', table.size() - 2));
 }
 
@@ -239,6 +242,24 @@ TEST_CASE("Four shards merge into the bytes of the whole, and nothing else does"
     REQUIRE(read_file(files[0]) == table);
 }
 
+TEST_CASE("GNU parallel runs the shards, as docs/sweeps.md shows", "[program]") {
+    if (std::system("parallel --version 2>/dev/null | grep -q '^GNU parallel'") != 0)
+        SKIP("GNU parallel is not installed");
+    const std::string docs = read_file(checkout() / "docs/sweeps.md");
+    const std::size_t named = docs.find("With GNU parallel"), fence = docs.find("```sh\n", named);
+    REQUIRE(fence != std::string::npos);
+    const std::string shown = docs.substr(fence + 6, docs.find("```\n", fence + 6) - fence - 6);
+    REQUIRE(has(shown, "parallel \"$sweep --jobs 1 --shard {}/4"));
+
+    const TemporaryFolder folder;
+    const std::string path = std::filesystem::path(CLOTHLAB_TEST_BINARY).parent_path().string();
+    write_file(folder / "shown.sh", "set -e\nexport HOME=$PWD PATH='" + path + "':$PATH\n" + shown +
+                                        "$sweep --csv whole.csv > whole.txt\ncmp ks.csv whole.csv\n");
+    REQUIRE(std::system(("cd '" + folder.path().string() + "' && sh shown.sh > said 2>&1").c_str()) == 0);
+    REQUIRE(lines_of(folder / "ks.csv") == 9);
+    REQUIRE(lines_of(folder / "part-4.csv") == 3);
+}
+
 TEST_CASE("A file of something else is refused and left as it is; --fresh replaces it", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
@@ -253,7 +274,7 @@ TEST_CASE("A file of something else is refused and left as it is; --fresh replac
             "t.csv: is there and is no table of this sweep; name another file, or replace");
     succeed(usual(scene, {"--csv", file, "--fresh"}));
     const Words other{"--vary",   "cloth.ks=100:10000:4log",
-                      "--vary",   "simulation.integrator=course-verlet,rk4,implicit-euler",
+                      "--vary",   "simulation.integrator=course-verlet,rk4,backward-euler",
                       "--csv",    file,
                       "--frames", "61"};
     refused(sweep_of(scene, other), "t.csv:2: a cell of another sweep: its scene, --set, --vary, --frames");
@@ -273,7 +294,7 @@ TEST_CASE("Two programs do not write one sweep's file", "[program]") {
     REQUIRE(has(second.err, "t.csv: cannot be written: another program is writing it"));
 }
 
-TEST_CASE("A worker that dies takes only its cell with it, which is named and run again", "[program]") {
+TEST_CASE("A worker that dies takes only its cell with it, which is named", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
     const std::string file = (folder / "t.csv").string();

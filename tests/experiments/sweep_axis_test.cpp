@@ -1,7 +1,5 @@
 // What --vary means: ranges, lists, and what is wrong with them.
 #include <catch2/catch_test_macros.hpp>
-#include <catch2/matchers/catch_matchers.hpp>
-#include <catch2/matchers/catch_matchers_string.hpp>
 
 #include "experiments/sweep_axis.h"
 #include "scene/error.h"
@@ -42,7 +40,7 @@ TEST_CASE("A range by factors has the same factor from each value to the next") 
     REQUIRE(axis.number(0) == 100);
     REQUIRE(axis.number(2) == 1000);
     REQUIRE(axis.number(4) == 10000);
-    REQUIRE(axis.number(6) == 100000);
+    REQUIRE(axis.values[6] == "100000");
     for (std::size_t i = 1; i < 7; ++i)
         REQUIRE(std::abs(axis.number(i) / axis.number(i - 1) / std::sqrt(10.0) - 1) < 1e-11);
 }
@@ -56,7 +54,7 @@ TEST_CASE("The ends of a range are what was written, to the last bit") {
 TEST_CASE("A range of a parameter that takes whole numbers has whole numbers, each once") {
     REQUIRE(parse_axis("simulation.substeps=5:100:4log").values == Values{"5", "14", "37", "100"});
     REQUIRE(error_of("simulation.substeps=1:10:8log") ==
-            "--vary simulation.substeps=1:10:8log: only 6 of the 8 values are different, as this parameter takes whole "
+            "--vary simulation.substeps=1:10:8log: only 7 of the 8 values are different, as this parameter takes whole "
             "numbers; ask for fewer, or list them");
     REQUIRE(error_of("cloth.ks=5:5:3").find("only 1 of the 3 values are different; ask for fewer") !=
             std::string::npos);

@@ -34,6 +34,15 @@ std::string error_of(const SweepConfig& config) {
     return "";
 }
 
+/// Without a thread.
+Findings findings_of(const SweepConfig& config) {
+    const Sweep sweep(config);
+    SweepRows rows;
+    for (std::size_t cell = 0; cell < sweep.cells(); ++cell)
+        rows[cell] = sweep.run(cell);
+    return sweep.findings(rows);
+}
+
 std::string csv_of(const Findings& findings) {
     return to_csv(findings.table);
 }
@@ -53,7 +62,7 @@ TEST_CASE("A sweep has a cell for every combination, the last parameter changing
 TEST_CASE("A row is what the library says of the same run") {
     SweepConfig config = small_sweep({"cloth.ks=100,5000"});
     config.scene.simulation.colliders = {sim::Plane{{0, 0.99, 0}, {0, 1, 0}, 0.5}};
-    const Findings findings = run_sweep(config);
+    const Findings findings = findings_of(config);
     for (std::size_t row = 0; row < 2; ++row) {
         const auto simulation = sim::Simulation::create(with(config.scene, findings.settings[row]).simulation);
         double first_contact = -1;
@@ -93,7 +102,7 @@ TEST_CASE("A run that diverges ends there, with its cause, and has no point in t
     SweepConfig config = small_sweep({"cloth.ks=100,1e9"});
     config.scene.simulation.rules.limit = sim::LimitRule::off;
     config.length.frames = 30;
-    const Findings findings = run_sweep(config);
+    const Findings findings = findings_of(config);
     REQUIRE(findings.table.text(1, "status") == "diverged");
     REQUIRE(findings.table.text(1, "cause").find("too stiff") != std::string::npos);
     REQUIRE(findings.table.number(1, "steps") < 30 * 4);
@@ -107,6 +116,7 @@ TEST_CASE("The table is the same for any number of threads", "[threads]") {
     config.jobs = 1;
     const Findings one = run_sweep(config);
     REQUIRE(one.table.rows.size() == 8);
+    REQUIRE(csv_of(findings_of(config)) == csv_of(one));
     for (const int jobs : {2, 5, 0}) {
         config.jobs = jobs;
         REQUIRE(csv_of(run_sweep(config)) == csv_of(one));
@@ -134,7 +144,7 @@ TEST_CASE("Seconds are whole frames of each cell's own frame rate") {
 TEST_CASE("The chart has the first parameter along x and a series for each value of the others") {
     SweepConfig config = small_sweep({"cloth.ks=1000,100", "simulation.substeps=4,5"});
     config.plot = "drape_height_m";
-    const Findings findings = run_sweep(config);
+    const Findings findings = findings_of(config);
     const Chart& chart = findings.charts.front();
     REQUIRE(chart.x.label == "Stiffness ks (N/m)");
     REQUIRE(chart.y.label == "Drape height (m)");
@@ -144,7 +154,7 @@ TEST_CASE("The chart has the first parameter along x and a series for each value
     REQUIRE(chart.series[0].rows == std::vector<std::size_t>{2, 0});
     REQUIRE(chart.series[0].y[1] == findings.table.number(0, "drape_height_m"));
 
-    const Findings named = run_sweep(small_sweep({"simulation.integrator=rk4,course-verlet"}));
+    const Findings named = findings_of(small_sweep({"simulation.integrator=rk4,course-verlet"}));
     REQUIRE(named.charts.front().x.names == std::vector<std::string>{"rk4", "course-verlet"});
     REQUIRE(named.charts.front().series.front().x == std::vector<double>{0, 1});
 }
@@ -195,7 +205,7 @@ TEST_CASE("Sweeps with another scene, axis, length or column have another identi
 TEST_CASE("With times, each row has them") {
     SweepConfig config = small_sweep({"cloth.ks=100,200"});
     config.times = true;
-    const Findings findings = run_sweep(config);
+    const Findings findings = findings_of(config);
     REQUIRE(findings.table.number(1, "wall_s") > 0);
     REQUIRE(findings.table.number(1, "steps_per_s") ==
             findings.table.number(1, "steps") / findings.table.number(1, "wall_s"));
