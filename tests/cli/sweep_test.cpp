@@ -356,6 +356,8 @@ TEST_CASE("What cannot be swept is said before any work, with its place", "[prog
         refused({"--vary", "cloth.ks=1,2", "--shard", shard},
                 std::string("clothlab: --shard ") + shard + ": write I/N");
     refused({"--vary", "cloth.ks=1,2", "--plot", "hash"}, "clothlab: --plot hash: there is no such number");
+    refused({"--vary", "cloth.ks=1,2", "--size", "large"}, "--size large");
+    refused({"--vary", "cloth.ks=1,2", "--frames", "-1"}, "--frames");
     refused({"--vary", "cloth.ks=1,2", "--seconds", "1", "--frames", "9"}, "excludes");
     REQUIRE(has(fail(sweep_of(scene, {"--vary", "cloth.ks=1,2", "--fresh"})).err, "--fresh: there is no --csv file"));
 }

@@ -107,16 +107,14 @@ public:
         for (std::size_t cell = 0; cell < sweep_.cells(); ++cell)
             if (shard_.has(cell))
                 cells_.push_back(cell);
-        if (is_journal(arguments.output.csv))
-            open_journal();
-        else if (arguments.fresh)
+        if (arguments.fresh && !is_journal(arguments.output.csv))
             throw scene::SceneError("--fresh: there is no --csv file to begin anew");
     }
 
     int run() {
         FindingsOutput output = arguments_.output;
-        if (journal_)
-            output.csv.clear();
+        if (is_journal(output.csv))
+            output.csv.clear(); // written here, cell by cell
         const int status =
             conduct([this](const experiments::Progress& progress) { return run(progress); }, output, gui_);
         if (!failed_.empty())
@@ -144,6 +142,12 @@ private:
         if (!arguments_.shard.empty())
             throw scene::SceneError("--pictures: a shard has only some of the pictures; leave out --shard");
         check_grid(sweep_, width, height);
+        std::optional<scene::Look> checked; // most sweeps have one
+        for (std::size_t cell = 0; cell < sweep_.cells(); ++cell)
+            if (const scene::Scene scene = sweep_.scene(cell); scene.look != checked) {
+                gui_.check_look(scene, sweep_.config().name);
+                checked = scene.look;
+            }
         scene::WholeFile{arguments_.pictures};
     }
 
@@ -160,6 +164,8 @@ private:
     }
 
     experiments::Findings run(const experiments::Progress& progress) {
+        if (is_journal(arguments_.output.csv))
+            open_journal();
         std::vector<std::size_t> left;
         std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(left),
                      [this](std::size_t cell) { return !rows().contains(cell); });
