@@ -10,7 +10,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build_packages=(g++ cmake ninja-build pkgconf nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev
     liblz4-dev)
-test_packages=(catch2)
+test_packages=(catch2
+    parallel) # runs the example of docs/sweeps.md
 gui_packages=(libglm-dev libstb-dev python3-glad
     libx11-dev libxrandr-dev libxinerama-dev libxcursor-dev libxi-dev libxext-dev # GLFW on X11
     libxkbcommon-dev libwayland-dev libwayland-bin                                # GLFW on Wayland

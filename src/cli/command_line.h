@@ -2,6 +2,7 @@
 // standard error; exit status 0 is success, 1 a failure of the run, 2 a usage or input error.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -94,6 +95,23 @@ struct GalleryArguments {
     int jobs = 0;                  ///< 0: one for each core
 };
 
+/// Pictures of many runs in one, row by row, with labels above the columns and left of the rows.
+struct SceneGrid {
+    struct Cell {
+        scene::Scene scene;
+        std::uint64_t frame = 0; ///< that is drawn; of a run that diverges before, the one in which it does
+        std::string caption;     ///< a line below the picture
+        std::string trouble;     ///< what went wrong, in another colour behind the caption; empty: nothing
+    };
+    std::string source;      ///< the scene's, for people and for files that it names
+    std::size_t columns = 1; ///< cells in a row
+    std::vector<std::string> column_labels, row_labels;
+    std::vector<Cell> cells;
+    std::string file;              ///< PNG
+    int width = 320, height = 240; ///< of each picture in px
+    int jobs = 0;                  ///< runs at a time; 0: one for each core
+};
+
 /// What needs a GUI, given by the program that has one. Those that return a number return the exit status.
 struct GuiCommands {
     std::function<int(const LabArguments&)> lab;
@@ -103,6 +121,11 @@ struct GuiCommands {
     std::function<int(const GalleryArguments&)> gallery;
     /// Draws a chart into a PNG file of a size in px. Throws scene::SceneError when it cannot be written.
     std::function<void(const experiments::Chart&, const std::string& file, int width, int height)> draw_chart;
+    /// Throws scene::SceneError for a scene whose look cannot be drawn; `source` begins the sentence.
+    std::function<void(const scene::Scene&, const std::string& source)> check_look;
+    /// Throws scene::SceneError for a scene whose look cannot be drawn, std::runtime_error for a file that cannot be
+    /// written.
+    std::function<void(const SceneGrid&)> draw_grid;
 };
 
 int run_program(int argc, const char* const* argv, const GuiCommands& gui);

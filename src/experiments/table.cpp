@@ -138,6 +138,11 @@ Table from_csv(std::string_view text) {
     return table;
 }
 
+std::vector<std::string> csv_cells(std::string_view text) {
+    std::size_t at = 0, line = 1;
+    return record(text, at, line);
+}
+
 std::string to_text(const Table& table) {
     std::string text;
     std::vector<std::size_t> width;

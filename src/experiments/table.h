@@ -39,6 +39,10 @@ std::string to_csv(const Table& table);
 /// std::invalid_argument with the line for rows of another length than the first and for quotes that do not close.
 Table from_csv(std::string_view text);
 
+/// The cells of one line of such a text as they are written, without quotes: digits stay text. Throws
+/// std::invalid_argument for quotes that do not close.
+std::vector<std::string> csv_cells(std::string_view line);
+
 /// Columns padded with spaces, numbers to the right, for a terminal.
 std::string to_text(const Table& table);
 /// A Markdown table.

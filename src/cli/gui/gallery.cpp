@@ -35,7 +35,6 @@ namespace fs = std::filesystem;
 /// What drawing, labelling and writing a picture takes, in simulated frames of a usual scene; for the progress bar.
 constexpr double picture_work = 150;
 constexpr int thumbnail_width = 240;
-constexpr render::Rgb trouble_colour{0xF5, 0xA9, 0x7F};
 
 /// A figure of the table, and what becomes of it.
 struct Item {

@@ -30,6 +30,14 @@ std::uint8_t srgb_of(double light) {
 
 } // namespace
 
+render::Image plain_ground(int width, int height) {
+    render::Image image{width, height, {}};
+    image.rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+        image.rgba[i] = ground[i % 4];
+    return image;
+}
+
 render::Image shrunk(const render::Image& image, int width, int height) {
     render::Image small{width, height, {}};
     small.rgba.reserve(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -61,10 +69,7 @@ render::Image montage(const std::vector<render::Image>& pictures, int gap) {
     const auto count = static_cast<int>(pictures.size());
     const int columns = std::clamp(static_cast<int>(std::lround(std::sqrt(1.5 * count * height / width))), 1, count);
     const int rows = (count + columns - 1) / columns;
-    render::Image whole{columns * width + gap, rows * height + gap, {}};
-    whole.rgba.resize(4 * static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height));
-    for (std::size_t i = 0; i < whole.rgba.size(); ++i)
-        whole.rgba[i] = ground[i % 4];
+    render::Image whole = plain_ground(columns * width + gap, rows * height + gap);
     for (int n = 0; n < count; ++n) {
         const render::Image& p = pictures[static_cast<std::size_t>(n)];
         for (int y = 0; y < p.height; ++y) {

@@ -4,8 +4,15 @@
 #include <vector>
 
 #include "render/image.h"
+#include "render/label.h"
 
 namespace clothlab::cli {
+
+/// Of words that say what went wrong in a run.
+inline constexpr render::Rgb trouble_colour{0xF5, 0xA9, 0x7F};
+
+/// A picture of nothing but the ground that pictures are put on.
+render::Image plain_ground(int width, int height);
 
 /// A smaller copy; every pixel is the mean, of light, of those it covers.
 render::Image shrunk(const render::Image& image, int width, int height);

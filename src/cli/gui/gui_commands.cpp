@@ -16,6 +16,7 @@
 #include "app/shader_list.h"
 #include "app/textures.h"
 #include "cli/gui/gallery.h"
+#include "cli/gui/scene_grid.h"
 #include "scene/io.h"
 #include "sim/simulation.h"
 
@@ -222,7 +223,16 @@ void draw_chart(const experiments::Chart& chart, const std::string& file, int wi
 } // namespace
 
 GuiCommands gui_commands() {
-    return {lab, render, textures, list_textures, gallery, draw_chart};
+    GuiCommands commands;
+    commands.lab = lab;
+    commands.render = render;
+    commands.textures = textures;
+    commands.list_textures = list_textures;
+    commands.gallery = gallery;
+    commands.check_look = check_look;
+    commands.draw_chart = draw_chart;
+    commands.draw_grid = draw_scene_grid;
+    return commands;
 }
 
 } // namespace clothlab::cli
