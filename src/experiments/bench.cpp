@@ -72,11 +72,6 @@ int steps_of_round(std::size_t points, bool quick) {
     return static_cast<int>(std::clamp(in_total / points, least, quick ? 2 * least : most));
 }
 
-Measured measured(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return {values[values.size() / 2], values.front(), values.back()};
-}
-
 /// Takes steps until caches, branch predictors and clock have seen that there is work. Returns the seconds of one.
 double warmed_up(Contestant& contestant) {
     const Clock::time_point start = Clock::now();

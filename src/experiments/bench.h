@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "experiments/machine_peak.h"
+#include "experiments/measured.h"
 #include "sim/description.h"
 #include "sim/state.h"
 
@@ -34,12 +35,6 @@ struct BenchConfig {
     std::function<void(const std::string&)> progress;
 };
 
-/// Seconds per step over the rounds.
-struct Measured {
-    double median = 0, min = 0, max = 0;
-    double spread() const { return median > 0 ? (max - min) / median : 0; }
-};
-
 inline constexpr const char* textbook_name = "textbook";
 
 struct BenchRow {
@@ -48,7 +43,7 @@ struct BenchRow {
     int threads = 1;
     int rounds = 0, steps = 0; ///< steps per round
 
-    Measured step; ///< all stages and what is between them
+    Measured step; ///< seconds per step over the rounds, as all that follow: all stages and what is between them
     Measured forces_and_verlet;
     std::array<Measured, sim::stage_count> stages;
 
