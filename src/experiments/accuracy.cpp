@@ -128,16 +128,25 @@ void measure_costs(const AccuracyConfig& config, AccuracyRuns& runs, const Progr
 
 } // namespace
 
-const std::vector<QuantityInfo>& quantities() {
-    static const std::vector<QuantityInfo> list{
-        {Quantity::rms, "rms", "rms_error_mm", "RMS error (mm)", "mm", "root mean square over the points, in mm"},
-        {Quantity::largest, "largest", "largest_error_mm", "Largest error (mm)", "mm", "of the worst point, in mm"},
-        {Quantity::sag, "sag", "sag_error_mm", "Sag error (mm)", "mm", "of how far the mean height has fallen, in mm"},
-        {Quantity::drape, "drape", "drape_error_mm", "Drape height error (mm)", "mm",
+const std::vector<ErrorQuantityInfo>& error_quantities() {
+    static const std::vector<ErrorQuantityInfo> list{
+        {ErrorQuantity::rms, "rms", "rms_error_mm", "RMS error (mm)", "mm", "root mean square over the points, in mm"},
+        {ErrorQuantity::largest, "largest", "largest_error_mm", "Largest error (mm)", "mm", "of the worst point, in mm"},
+        {ErrorQuantity::sag, "sag", "sag_error_mm", "Sag error (mm)", "mm", "of how far the mean height has fallen, in mm"},
+        {ErrorQuantity::drape, "drape", "drape_error_mm", "Drape height error (mm)", "mm",
          "of the height from the lowest to the highest point, in mm"},
-        {Quantity::energy, "energy", "energy_error_mJ", "Energy error (mJ)", "mJ",
+        {ErrorQuantity::energy, "energy", "energy_error_mJ", "Energy error (mJ)", "mJ",
          "of the total energy, kinetic, of springs and of gravity, in mJ"}};
     return list;
+}
+
+std::vector<int> spread_substeps(int first, int last, int count) {
+    std::vector<int> numbers;
+    for (int i = 0; i < count; ++i)
+        numbers.push_back(static_cast<int>(
+            std::lround(first * std::pow(static_cast<double>(last) / first, static_cast<double>(i) / (count - 1)))));
+    sort_and_thin(numbers);
+    return numbers;
 }
 
 Findings run_accuracy(const AccuracyConfig& wanted, const Progress& progress) {

@@ -18,18 +18,21 @@
 namespace clothlab::experiments {
 
 /// What the chart, the slopes, the front and the sentences are of; the table has all of them.
-enum class Quantity : std::uint8_t { rms, largest, sag, drape, energy };
+enum class ErrorQuantity : std::uint8_t { rms, largest, sag, drape, energy };
 
-struct QuantityInfo {
-    Quantity id;
+struct ErrorQuantityInfo {
+    ErrorQuantity id;
     const char* name;   ///< as the command line writes it
     const char* column; ///< of the table
     const char* title;  ///< of the error, with the unit
     const char* unit;
     const char* help;
 };
-/// In the order of Quantity.
-const std::vector<QuantityInfo>& quantities();
+/// In the order of ErrorQuantity.
+const std::vector<ErrorQuantityInfo>& error_quantities();
+
+/// Steps per frame from one number to another, evenly in the logarithm: at most `count` whole numbers, ascending.
+std::vector<int> spread_substeps(int first, int last, int count);
 
 struct AccuracyConfig {
     scene::Scene scene;
@@ -40,7 +43,7 @@ struct AccuracyConfig {
     std::vector<sim::Precision> precisions{sim::Precision::single_precision, sim::Precision::double_precision};
     std::vector<int> threads{1, 2};
     bool rules = false; ///< also the scene's method with the course's version of one rule at a time
-    Quantity quantity = Quantity::rms;
+    ErrorQuantity quantity = ErrorQuantity::rms;
     std::vector<double> tolerances; ///< in the quantity's unit, of the sentences; empty: 10, 1, 0.1 and 0.01
     double budget = 2;  ///< wall s that a run to the end may take in one thread; what takes longer is left out
     int rounds = 3;     ///< of timing; 0: no times, and so no front

@@ -21,7 +21,7 @@ std::string count_of(int n, const char* what) {
 }
 
 AccuracyAnalysis::AccuracyAnalysis(const AccuracyConfig& config_, const AccuracyRuns& runs_)
-    : config(config_), runs(runs_), quantity(quantities()[static_cast<std::size_t>(config.quantity)]),
+    : config(config_), runs(runs_), quantity(error_quantities()[static_cast<std::size_t>(config.quantity)]),
       floor(resolution * runs.reference.error[static_cast<std::size_t>(config.quantity)]) {
     find_lines();
     find_rows();

@@ -33,7 +33,7 @@ public:
 
     const AccuracyConfig& config;
     const AccuracyRuns& runs;
-    const QuantityInfo& quantity;
+    const ErrorQuantityInfo& quantity;
     double floor; ///< smaller errors are not told from the reference's own
     std::vector<AccuracyLine> lines;
     std::vector<AccuracyRow> rows; ///< of what was not left out

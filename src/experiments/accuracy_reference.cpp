@@ -117,7 +117,7 @@ Growth measure_growth(const sim::Description& description, std::uint64_t frames,
     return growth;
 }
 
-Reference find_reference(const scene::Scene& scene, std::uint64_t frames, int finest, Quantity quantity, double budget,
+Reference find_reference(const scene::Scene& scene, std::uint64_t frames, int finest, ErrorQuantity quantity, double budget,
                          const Tick& tick) {
     const sim::IntegratorInfo& method = best_method();
     PhysicalModel model = physical_model(scene);

@@ -46,7 +46,7 @@ struct Reference {
 /// `finest`: the largest number of substeps that methods are run with; the reference takes no more than twice as many,
 /// but for the sake of its stability. It is refined until `quantity` does not change any more, or a run would take
 /// longer than `budget` s. Throws Refusal where the scene has no motion that can be found: chaos, divergence.
-Reference find_reference(const scene::Scene& scene, std::uint64_t frames, int finest, Quantity quantity, double budget,
+Reference find_reference(const scene::Scene& scene, std::uint64_t frames, int finest, ErrorQuantity quantity, double budget,
                          const Tick& tick);
 
 } // namespace clothlab::experiments

@@ -16,7 +16,7 @@ void fill_table(const AccuracyAnalysis& a, Findings& findings) {
     Table& table = findings.table;
     table.columns = {{"method", "Method"},     {"rule", "Rule"},     {"precision", "Precision"}, {"threads", "Threads"},
                      {"substeps", "Substeps"}, {"dt_ms", "dt (ms)"}, {"status", "Status"}};
-    for (const QuantityInfo& quantity : quantities())
+    for (const ErrorQuantityInfo& quantity : error_quantities())
         table.columns.push_back({quantity.column, quantity.title, 3});
     for (const Column& column : {Column{"cost_s_per_s", "Cost (s/s)", 3}, Column{"cost_min_s_per_s", "Least (s/s)", 3},
                                  Column{"cost_max_s_per_s", "Most (s/s)", 3}, Column{"resolved", "Resolved"},
@@ -33,7 +33,7 @@ void fill_table(const AccuracyAnalysis& a, Findings& findings) {
                                   static_cast<double>(attempt.substeps),
                                   attempt.dt * 1000,
                                   sim::status_names[static_cast<std::size_t>(attempt.status)]};
-        for (std::size_t q = 0; q < quantities().size(); ++q)
+        for (std::size_t q = 0; q < error_quantities().size(); ++q)
             add(values, attempt.error ? std::optional((*attempt.error)[q]) : std::nullopt);
         const auto cost = attempt.cost.empty() ? std::nullopt : std::optional(attempt.cost[row.thread]);
         add(values, cost ? std::optional(cost->median) : std::nullopt);

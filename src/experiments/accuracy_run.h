@@ -33,7 +33,7 @@ struct Ending {
 /// takes longer than `budget` wall s.
 Ending run_to_end(const sim::Description& description, std::uint64_t frames, double budget, const Tick& tick);
 
-/// How far an ending is from another, by Quantity and in its unit: mm, the energy in mJ.
+/// How far an ending is from another, by ErrorQuantity and in its unit: mm, the energy in mJ.
 using Errors = std::array<double, 5>;
 Errors errors_between(const Ending& ending, const Ending& reference);
 

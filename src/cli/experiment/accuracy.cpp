@@ -1,7 +1,7 @@
 // `clothlab experiment accuracy`.
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cmath>
+#include <algorithm>
 #include <memory>
 
 #include "cli/experiment/experiment.h"
@@ -50,14 +50,7 @@ std::vector<int> read_substeps(const std::string& text) {
     if (range.size() != 3 || range[2] < 2 || range[0] >= range[1])
         throw scene::SceneError("--substeps " + text +
                                 ": write FROM:TO:COUNT, with FROM below TO and COUNT at least 2");
-    std::vector<int> numbers;
-    for (int i = 0; i < range[2]; ++i) {
-        const int number = static_cast<int>(std::lround(
-            range[0] * std::pow(static_cast<double>(range[1]) / range[0], static_cast<double>(i) / (range[2] - 1))));
-        if (numbers.empty() || number != numbers.back())
-            numbers.push_back(number);
-    }
-    return numbers;
+    return experiments::spread_substeps(range[0], range[1], range[2]);
 }
 
 int run(AccuracyArguments& a, const GuiCommands& gui) {
@@ -74,7 +67,7 @@ int run(AccuracyArguments& a, const GuiCommands& gui) {
             config.precisions.push_back(name == "single" ? sim::Precision::single_precision
                                                          : sim::Precision::double_precision);
     }
-    for (const experiments::QuantityInfo& quantity : experiments::quantities())
+    for (const experiments::ErrorQuantityInfo& quantity : experiments::error_quantities())
         if (a.quantity == quantity.name)
             config.quantity = quantity.id;
     return conduct([&](const experiments::Progress& progress) { return run_accuracy(config, progress); }, a.output,
@@ -110,7 +103,7 @@ void add_accuracy(CLI::App& experiment, const GuiCommands& gui, int& status) {
     accuracy->add_flag("--rules", a.config.rules,
                        "Also the scene's own method with the course's version of one rule at a time");
     std::string help = "The error that the chart, the slopes and the front are of (default: rms). ";
-    for (const experiments::QuantityInfo& quantity : experiments::quantities()) {
+    for (const experiments::ErrorQuantityInfo& quantity : experiments::error_quantities()) {
         names.emplace_back(quantity.name);
         help += std::string(names.size() > 1 ? "; " : "") + quantity.name + ": " + quantity.help;
     }
