@@ -19,18 +19,23 @@ using experiments::Chart;
 using experiments::Mark;
 using experiments::Series;
 
-/// Told apart on a dark ground, also by most of those who do not see all colours; with the markers below the pairs
-/// repeat after 80 series.
-constexpr std::array<ImVec4, 10> palette{{{0.40f, 0.68f, 0.95f, 1},
-                                          {0.95f, 0.60f, 0.22f, 1},
-                                          {0.45f, 0.80f, 0.50f, 1},
-                                          {0.93f, 0.42f, 0.45f, 1},
-                                          {0.72f, 0.56f, 0.93f, 1},
-                                          {0.98f, 0.86f, 0.35f, 1},
-                                          {0.35f, 0.83f, 0.82f, 1},
-                                          {0.96f, 0.58f, 0.80f, 1},
-                                          {0.74f, 0.74f, 0.74f, 1},
-                                          {0.72f, 0.55f, 0.40f, 1}}};
+/// Told apart on a dark ground, as many as there are methods; with the markers below, repetitions are others.
+constexpr std::array<ImVec4, 16> palette{{{0.35f, 0.62f, 0.95f, 1},
+                                          {0.95f, 0.58f, 0.20f, 1},
+                                          {0.42f, 0.80f, 0.42f, 1},
+                                          {0.92f, 0.33f, 0.36f, 1},
+                                          {0.70f, 0.52f, 0.95f, 1},
+                                          {0.98f, 0.90f, 0.35f, 1},
+                                          {0.25f, 0.85f, 0.82f, 1},
+                                          {0.98f, 0.55f, 0.80f, 1},
+                                          {0.78f, 0.80f, 0.82f, 1},
+                                          {0.66f, 0.46f, 0.30f, 1},
+                                          {0.20f, 0.45f, 0.70f, 1},
+                                          {0.75f, 0.85f, 0.55f, 1},
+                                          {0.16f, 0.55f, 0.40f, 1},
+                                          {0.98f, 0.72f, 0.62f, 1},
+                                          {0.60f, 0.28f, 0.62f, 1},
+                                          {0.55f, 0.58f, 0.25f, 1}}};
 constexpr std::array<ImPlotMarker, 8> markers{ImPlotMarker_Circle, ImPlotMarker_Square, ImPlotMarker_Diamond,
                                               ImPlotMarker_Up,     ImPlotMarker_Down,   ImPlotMarker_Left,
                                               ImPlotMarker_Right,  ImPlotMarker_Plus};
@@ -120,7 +125,11 @@ void draw_spread(const Series& series, ImPlotSpec spec) {
 void draw_series(const Series& series, int number) {
     const auto look = static_cast<std::size_t>(series.colour >= 0 ? series.colour : number);
     ImPlotSpec spec;
-    spec.LineColor = series.emphasised ? colour::text : palette[look % palette.size()];
+    // A prediction has to stand out from what was observed, and from any cell.
+    constexpr ImVec4 emphasised_dashes{0.45f, 0.90f, 1, 1};
+    spec.LineColor = !series.emphasised            ? palette[look % palette.size()]
+                     : series.mark == Mark::dashed ? emphasised_dashes
+                                                   : colour::text;
     spec.LineWeight = scaled(series.emphasised ? 2.6f : 1.4f);
     spec.FillColor = spec.MarkerFillColor = spec.MarkerLineColor = spec.LineColor;
     spec.MarkerSize = scaled(3.5f);
@@ -235,16 +244,16 @@ ChartMouse draw_chart(const Chart& chart, const experiments::Table& table, const
     ImPlot::PushStyleColor(ImPlotCol_PlotBg, ImVec4(0.085f, 0.09f, 0.10f, 1));
     ImPlot::PushStyleColor(ImPlotCol_AxisGrid, ImVec4(1, 1, 1, 0.12f));
     ImPlot::PushStyleVar(ImPlotStyleVar_LegendSpacing, ImVec2(5, 1));
-    const bool many = chart.series.size() + chart.cell_kinds.size() > 6;
-    if (ImPlot::BeginPlot((chart.title + "###" + id).c_str(), size, ImPlotFlags_NoMouseText)) {
+    const bool legend = chart.series.size() + chart.cell_kinds.size() > 1;
+    if (ImPlot::BeginPlot((chart.title + "###" + id).c_str(), size,
+                          int{ImPlotFlags_NoMouseText} | (legend ? 0 : int{ImPlotFlags_NoLegend}))) {
         set_up_axis(ImAxis_X1, chart.x);
         set_up_axis(ImAxis_Y1, chart.y);
         const ChartLimits limits = limits_of(chart);
         const ImPlotCond when = fit ? ImPlotCond_Always : ImPlotCond_Once;
         ImPlot::SetupAxisLimits(ImAxis_X1, limits.x_low, limits.x_high, when);
         ImPlot::SetupAxisLimits(ImAxis_Y1, limits.y_low, limits.y_high, when);
-        ImPlot::SetupLegend(many ? ImPlotLocation_East : ImPlotLocation_NorthEast,
-                            many ? ImPlotLegendFlags_Outside : ImPlotLegendFlags_None);
+        ImPlot::SetupLegend(ImPlotLocation_East, ImPlotLegendFlags_Outside);
         draw_cells(chart);
         int number = 0;
         for (const Series& series : chart.series)
