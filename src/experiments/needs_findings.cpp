@@ -42,7 +42,7 @@ std::vector<Column> columns(const Config& config) {
             {"model", "Model"},
             {"cost_s_per_s", "Cost (s per simulated s)", 3},
             {"spread_percent", "Spread (%)", 2},
-            {"speed_up", "Speed-up", 3},
+            {"speed_up", "Speed-up", 4},
             {"deviation_" + unit, "Deviation (" + unit + ")", 3},
             {"within", "Within"},
             {"evidence", "Evidence"}};
