@@ -19,14 +19,14 @@ double good_until(const Config& config, const Record& full, const std::vector<do
     return until;
 }
 
-/// Other quantities that the same nudge moves by no more than the same number of their unit.
+/// Other quantities, with what the same nudge moves them by; of the same unit, those that it moves little enough.
 std::vector<std::string> steadier(const Config& config, const Record& full, const Record& nudged) {
     std::vector<std::string> list;
     for (const QuantityInfo& other : quantities()) {
         if (other.id == config.quantity || (other.id == Quantity::first_contact && std::isinf(full.first_contact)))
             continue;
         const double moved = deviation(other.id, full, nudged, config.at_end);
-        if (moved <= config.tolerance)
+        if (other.unit != info(config.quantity).unit || moved <= config.tolerance)
             list.push_back("--quantity " + std::string(other.name) + ", which moves by " + amount(other.id, moved));
     }
     return list;
@@ -65,8 +65,9 @@ double noise_of(const Config& config, const Record& full, const Record& nudged, 
                           ", as long as it is predictable");
     for (const std::string& other : steadier(config, full, nudged))
         instead.push_back(other);
-    if (instead.empty())
-        instead.emplace_back("a larger --tolerance");
+    if (config.scene.simulation.stepping.precision == sim::Precision::single_precision)
+        instead.emplace_back("--set simulation.precision=double, in which the nudge is 1e-10 m");
+    instead.emplace_back("a larger --tolerance");
     why += ". Use ";
     for (std::size_t i = 0; i < instead.size(); ++i)
         why += (i == 0 ? "" : "; or ") + instead[i];

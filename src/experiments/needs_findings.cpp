@@ -42,7 +42,7 @@ std::vector<Column> columns(const Config& config) {
             {"model", "Model"},
             {"cost_s_per_s", "Cost (s per simulated s)", 3},
             {"spread_percent", "Spread (%)", 2},
-            {"speed_up", "Speed-up", 3},
+            {"speed_up", "Speed-up", 4},
             {"deviation_" + unit, "Deviation (" + unit + ")", 3},
             {"within", "Within"},
             {"evidence", "Evidence"}};
@@ -250,10 +250,11 @@ std::vector<std::string> notes_of(const Config& config, const Found& found) {
     std::vector<std::string> notes{
         "Deviations are from the scene as it is, the full model, not from the truth: " + what_counts(config) + ", " +
             (config.quantity == Quantity::first_contact ? "to the length of a step."
-             : config.at_end                            ? "at frame " + std::to_string(found.course.frames) + "."
-                             : "the largest of " + std::to_string(found.yardstick.shapes.size()) +
-                                   " comparisons, the last at the end. Shapes of other grids are compared at the "
-                                   "points of the coarser one."),
+             : config.at_end
+                 ? "at frame " + std::to_string(found.course.frames) + "."
+                 : "the largest of " + std::to_string(found.yardstick.shapes.size()) +
+                       " comparisons, the last at the end. Coarser grids are interpolated and compared at all "
+                       "points of the full model."),
         "A nudge of the full model's start by up to " + number(found.nudge) + " m moves it by " +
             amount(config, found.noise) + "."};
     if (config.known_cost)

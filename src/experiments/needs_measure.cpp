@@ -67,9 +67,9 @@ double difference(Quantity quantity, const Record& full, const Record& other, st
     const Shape &a = full.shapes[i], &b = other.shapes[i];
     switch (quantity) {
     case Quantity::rms:
-        return distance(a, b).rms;
+        return distance(a, resampled(b, a.columns, a.rows)).rms;
     case Quantity::largest:
-        return distance(a, b).largest;
+        return distance(a, resampled(b, a.columns, a.rows)).largest;
     case Quantity::drape:
         return std::abs(drape_height(a) - drape_height(b));
     case Quantity::sag:

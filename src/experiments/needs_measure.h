@@ -71,7 +71,8 @@ Record record(const sim::Description& model, const Course& course, const Progres
 double nudge(const sim::Simulation& start);
 
 /// How far a complete run is from the full model's, in the quantity's unit: the largest of all comparisons, or that at
-/// the end. Infinity where one run has a first contact and the other has none, and for what is not finite.
+/// the end. Distances are taken at all of the full model's points, between which a coarser grid is interpolated.
+/// Infinity where one run has a first contact and the other has none, and for what is not finite.
 double deviation(Quantity quantity, const Record& full, const Record& other, bool at_end);
 /// The same at each comparison; of first_contact, once.
 std::vector<double> deviations(Quantity quantity, const Record& full, const Record& other);

@@ -12,9 +12,10 @@
 namespace clothlab::experiments::needs {
 namespace {
 
-constexpr int rounds = 3, final_rounds = 7;
-/// Models that take so many times the time of the one to beat are given up.
-constexpr double much_slower = 2;
+constexpr Turns in_search{3, 0.03}, at_last{7, 0.2};
+/// Models that take so many times the time of the one to beat are given up; what leaves something out gets further, as
+/// it is to be known whether it breaks the tolerance.
+constexpr double much_slower = 2, much_slower_omission = 10;
 
 class Search {
 public:
@@ -54,7 +55,7 @@ private:
         model_.scene = config_.scene;
         found_.full = model_;
         tell(0.015, "timing the full model");
-        time({}, rounds);
+        time({}, in_search);
         visited_.push_back(model_.scene.simulation);
     }
 
@@ -71,7 +72,8 @@ private:
                 trial.deviation = std::numeric_limits<double>::quiet_NaN();
                 trial.trouble = "not run: much slower already with fewer substeps";
             } else {
-                judge(trial, much_slower * model_.cost.median * found_.course.seconds);
+                judge(trial, (all[i].omission ? much_slower_omission : much_slower) * model_.cost.median *
+                                 found_.course.seconds);
             }
             trials.push_back(std::move(trial));
         }
@@ -103,8 +105,8 @@ private:
             trial.trouble = run.trouble->status == sim::Status::jitter ? "jitters" : "diverges";
         } else if (run.given_up) {
             trial.verdict = Verdict::slower;
-            trial.trouble =
-                "given up: took " + words::number(much_slower) + " x the time of the model that it was to improve";
+            trial.trouble = "given up: took " + words::number(most / found_.course.seconds / model_.cost.median) +
+                            " x the time of the model before";
         } else {
             trial.deviation = deviation(config_.quantity, found_.yardstick, run, config_.at_end);
             trial.verdict = trial.deviation <= config_.tolerance ? Verdict::within : Verdict::breaks;
@@ -113,11 +115,11 @@ private:
     }
 
     /// Times these beside the full model and the present one.
-    void time(const std::vector<Trial*>& trials, int how_often) {
+    void time(const std::vector<Trial*>& trials, const Turns& turns) {
         std::vector<sim::Description> models{config_.scene.simulation, model_.scene.simulation};
         for (const Trial* trial : trials)
             models.push_back(trial->scene.simulation);
-        const std::vector<Measured> costs = time_by_turns(models, found_.course, how_often, config_.known_cost, beat_);
+        const std::vector<Measured> costs = time_by_turns(models, found_.course, turns, config_.known_cost, beat_);
         const auto set = [&](Trial& trial, std::size_t i) {
             trial.cost = costs[i];
             trial.timed = true;
@@ -153,7 +155,7 @@ private:
         std::vector<Trial> trials = judge_all(tried, 0.02, 0.3);
         std::move(trials.begin(), trials.end(), std::back_inserter(found_.alone));
         tell(0.32, "timing each");
-        time(not_timed(found_.alone), rounds);
+        time(not_timed(found_.alone), in_search);
     }
 
     void drop_what_is_free() {
@@ -170,7 +172,7 @@ private:
         if (hash_ != found_.yardstick.hash)
             throw std::logic_error("what was proved to be free to drop changes the run");
         model_ = std::move(all);
-        time({}, rounds);
+        time({}, in_search);
         visited_.push_back(model_.scene.simulation);
         found_.path.push_back(model_);
     }
@@ -201,7 +203,7 @@ private:
             const auto begin = fit.begin() + static_cast<std::ptrdiff_t>(from);
             const std::vector<Trial*> batch(
                 begin, begin + static_cast<std::ptrdiff_t>(std::min(at_a_time, fit.size() - from)));
-            time(batch, rounds);
+            time(batch, in_search);
             Trial* best = *std::min_element(batch.begin(), batch.end(), [](const Trial* a, const Trial* b) {
                 return a->cost.median < b->cost.median;
             });
@@ -212,7 +214,7 @@ private:
         }
         Trial* least = nullptr;
         for (Trial* trial : fit)
-            if (trial->alternative.omission && trial->cost.median <= (1 + least_gain) * model_.cost.median &&
+            if (trial->alternative.omission && trial->cost.min <= (1 + least_gain) * model_.cost.median &&
                 (!least || trial->deviation < least->deviation))
                 least = trial;
         if (least) {
@@ -220,19 +222,19 @@ private:
             return true;
         }
         found_.more = std::move(trials);
-        time(not_timed(found_.more), rounds);
+        time(not_timed(found_.more), in_search);
         return false;
     }
 
     void time_at_last() {
         tell(0.92, "the full and the recommended model, by turns");
-        time({}, final_rounds);
+        time({}, at_last);
         found_.recommended = model_;
         tell(0.96, "the same again");
         Trial again = model_;
         judge(again, std::numeric_limits<double>::infinity());
         const std::vector<Measured> costs = time_by_turns({config_.scene.simulation, again.scene.simulation},
-                                                          found_.course, final_rounds, config_.known_cost, beat_);
+                                                          found_.course, at_last, config_.known_cost, beat_);
         again.cost = costs[1];
         again.timed = true;
         again.speed_up = costs[0].median / costs[1].median;

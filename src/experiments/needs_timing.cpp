@@ -29,8 +29,8 @@ Measured measured(std::vector<double> values) {
 
 } // namespace
 
-std::vector<Measured> time_by_turns(const std::vector<sim::Description>& models, const Course& course, int rounds,
-                                    const Cost& known, const Progress& progress) {
+std::vector<Measured> time_by_turns(const std::vector<sim::Description>& models, const Course& course,
+                                    const Turns& turns, const Cost& known, const Progress& progress) {
     std::vector<Measured> costs;
     if (known) {
         for (const sim::Description& model : models) {
@@ -39,16 +39,15 @@ std::vector<Measured> time_by_turns(const std::vector<sim::Description>& models,
         }
         return costs;
     }
-    constexpr double long_enough = 0.03; // s, of a turn
     std::vector<std::vector<double>> taken(models.size());
-    for (int round = 0; round < rounds; ++round)
+    for (int round = 0; round < turns.rounds; ++round)
         for (std::size_t i = 0; i < models.size(); ++i) {
             double seconds = 0;
             int runs = 0;
             do {
                 seconds += seconds_of_run(models[i], course, progress);
                 ++runs;
-            } while (seconds < long_enough && runs < 100);
+            } while (seconds < turns.least_s && runs < 10000);
             taken[i].push_back(seconds / runs / course.seconds);
         }
     for (std::vector<double>& one : taken)

@@ -1,6 +1,8 @@
 #include "experiments/needs_words.h"
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "sim/integrators/integrator.h"
 
@@ -37,6 +39,8 @@ public:
 std::string number(double value, int digits) {
     char text[40];
     std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (std::abs(value) >= 1000 && std::abs(value) < 1e6) // 1230, not 1.23e+03
+        std::snprintf(text, sizeof text, "%.0f", std::strtod(text, nullptr));
     return text;
 }
 

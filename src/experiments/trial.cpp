@@ -61,6 +61,18 @@ Shape shape_of(const sim::Simulation& simulation) {
     return shape;
 }
 
+Shape resampled(const Shape& shape, int columns, int rows) {
+    if (shape.points.empty())
+        throw std::invalid_argument("a shape without points cannot be resampled");
+    Shape result{columns, rows, {}};
+    result.points.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column)
+            result.points.push_back(
+                interpolated(shape, rescaled(column, columns, shape.columns), rescaled(row, rows, shape.rows)));
+    return result;
+}
+
 Distance distance(const Shape& a, const Shape& b) {
     if (a.points.empty() || b.points.empty())
         throw std::invalid_argument("a shape without points has no distance");

@@ -19,6 +19,9 @@ struct Shape {
     std::vector<sim::Vec3> points;
 };
 Shape shape_of(const sim::Simulation& simulation);
+/// The same shape on another grid: interpolated bilinearly where it has no points. Throws std::invalid_argument for a
+/// shape without points.
+Shape resampled(const Shape& shape, int columns, int rows);
 
 /// How far apart the points of two shapes of one cloth are, in m.
 struct Distance {

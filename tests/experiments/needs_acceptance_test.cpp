@@ -51,7 +51,7 @@ void require_kept_promise(const Case& which) {
     const Course course = course_of(config.scene.simulation, config.frames, 1);
     const Record full = record(config.scene.simulation, course, {}), model = record(preset, course, {});
     const double off = deviation(config.quantity, full, model, false);
-    const std::vector<Measured> costs = time_by_turns({config.scene.simulation, preset}, course, 9, {}, {});
+    const std::vector<Measured> costs = time_by_turns({config.scene.simulation, preset}, course, {9, 0.2}, {}, {});
     const double promised = table.number(recommended, "speed_up"), now = costs[0].median / costs[1].median;
     std::cout << which.scene << ": " << result.findings.sentences[0] << " Now " << now << " x and " << off << ".\n";
     CHECK(off <= config.tolerance);
@@ -63,8 +63,8 @@ void require_kept_promise(const Case& which) {
 
 TEST_CASE("The recommended model meets the tolerance and the speed that it promised, on four scenes",
           "[.][needs-acceptance]") {
-    require_kept_promise({"two-pins", 90, Quantity::rms, 1});
+    require_kept_promise({"two-pins", 90, Quantity::rms, 3});
     require_kept_promise({"plane", 90, Quantity::rms, 1});
-    require_kept_promise({"sphere-medium", 90, Quantity::drape, 5});
-    require_kept_promise({"flag", 45, Quantity::rms, 5});
+    require_kept_promise({"sphere-medium", 54, Quantity::rms, 5});
+    require_kept_promise({"flag", 27, Quantity::rms, 5});
 }

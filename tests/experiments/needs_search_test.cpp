@@ -27,7 +27,8 @@ double off_by(const scene::Scene& full, const scene::Scene& model, std::uint64_t
         other->step_frame();
         if (other->trouble())
             return std::numeric_limits<double>::infinity();
-        worst = std::max(worst, 1000 * distance(shape_of(*one), shape_of(*other)).rms);
+        const Shape shape = shape_of(*one);
+        worst = std::max(worst, 1000 * distance(shape, resampled(shape_of(*other), shape.columns, shape.rows)).rms);
     }
     return worst;
 }
@@ -257,6 +258,17 @@ TEST_CASE("Equal shapes are no distance apart, to the bit", "[needs]") {
     const auto simulation = sim::Simulation::create(falling_cloth().simulation);
     run_frames(*simulation, 20);
     REQUIRE(distance(shape_of(*simulation), shape_of(*simulation)).largest == 0);
+}
+
+TEST_CASE("A coarser grid is compared at all points of the finer one, those between its own included", "[needs]") {
+    Record full, coarse;
+    // Three points in an arch, of which the coarser grid has the two at its feet.
+    full.shapes = {{3, 1, {{0, 0, 0}, {1, 0.3, 0}, {2, 0, 0}}}};
+    coarse.shapes = {{2, 1, {{0, 0, 0}, {2, 0, 0}}}};
+    REQUIRE_THAT(deviation(Quantity::largest, full, coarse, false), Catch::Matchers::WithinRel(300.0, 1e-12));
+    REQUIRE_THAT(deviation(Quantity::rms, full, coarse, false),
+                 Catch::Matchers::WithinRel(300 / std::sqrt(3.0), 1e-12));
+    REQUIRE_THAT(deviation(Quantity::drape, full, coarse, true), Catch::Matchers::WithinRel(300.0, 1e-12));
 }
 
 TEST_CASE("The search ends when it is cancelled", "[needs]") {
