@@ -14,9 +14,10 @@ std::size_t columns_of(const experiments::Sweep& sweep) {
     return sweep.config().axes.front().values.size();
 }
 
-/// "0.0123 max strain", and what went wrong.
-std::string caption_of(const experiments::Sweep& sweep, const std::vector<experiments::Value>& row) {
-    const experiments::Table table{sweep.columns(), {row}};
+/// "Max strain 0.0123"; a number of a run that diverged means nothing.
+std::string caption_of(const experiments::Sweep& sweep, const experiments::Table& table) {
+    if (table.text(0, "status") == "diverged")
+        return "";
     const std::string& plot = sweep.config().plot;
     return table.columns[table.column(plot)].title + " " + table.text(0, plot);
 }
@@ -49,8 +50,8 @@ SceneGrid sweep_pictures(const experiments::Sweep& sweep, const experiments::Swe
             const std::size_t cell = column * lines + row; // the last parameter changes fastest
             const experiments::Table table{sweep.columns(), {rows.at(cell)}};
             const std::string status = table.text(0, "status");
-            grid.cells.push_back({sweep.scene(cell), sweep.frames(cell), caption_of(sweep, rows.at(cell)),
-                                  status == "ok" ? "" : status});
+            grid.cells.push_back(
+                {sweep.scene(cell), sweep.frames(cell), caption_of(sweep, table), status == "ok" ? "" : status});
         }
     return grid;
 }

@@ -183,7 +183,7 @@ render::Image labelled_grid(const SceneGrid& grid, const std::vector<render::Ima
             const double line = top + grid.height + 0.4 * small;
             const std::string caption = fitting(faces.regular, cell.caption, small, grid.width);
             faces.regular.draw(whole, left, line, caption, small, caption_colour);
-            const double used = faces.regular.width(caption + "  ", small);
+            const double used = caption.empty() ? 0 : faces.regular.width(caption + "  ", small);
             if (!cell.trouble.empty())
                 faces.regular.draw(whole, left + used, line,
                                    fitting(faces.regular, cell.trouble, small, grid.width - used), small,
