@@ -8,7 +8,6 @@
 #include "app/picture_maker.h"
 #include "app/scene_view.h"
 #include "app/textures.h"
-#include "scene/fields.h"
 #include "scene/io.h"
 #include "sim/integrators/integrator.h"
 #include "ui/change_text.h"
@@ -17,10 +16,8 @@ namespace clothlab::app {
 namespace {
 
 namespace fs = std::filesystem;
-using experiments::Column;
 using experiments::ReportSection;
 using experiments::Table;
-using experiments::Value;
 
 constexpr int picture_width = 1280, picture_height = 800;
 constexpr const char* viewport_file = "viewport.png";
@@ -30,45 +27,6 @@ std::string hex(std::uint64_t value) {
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value));
     return digits;
-}
-
-std::string shown(const scene::Field& field, const scene::Scene& scene) {
-    char text[96];
-    switch (field.type) {
-    case scene::FieldType::boolean:
-        return field.get(scene) != 0 ? "on" : "off";
-    case scene::FieldType::choice:
-        return std::string(field.choices[static_cast<std::size_t>(field.get(scene))]);
-    case scene::FieldType::vector: {
-        const sim::Vec3 v = field.get_vector(scene);
-        std::snprintf(text, sizeof text, "%.6g, %.6g, %.6g", v.x, v.y, v.z);
-        return text;
-    }
-    case scene::FieldType::text:
-        return field.get_text(scene);
-    default:
-        std::snprintf(text, sizeof text, "%.9g", field.get(scene) * field.shown.factor);
-        return text;
-    }
-}
-
-ReportSection parameters(const ui::Lab& lab) {
-    ReportSection section{.title = "Parameters"};
-    section.table.emplace();
-    section.table->columns = {{"key", "Key"},
-                              {"parameter", "Parameter"},
-                              {"value", "Value"},
-                              {"unit", "Unit"},
-                              {"loaded", "As loaded, where it was another"}};
-    for (const scene::Field& field : scene::fields()) {
-        if (field.effect == scene::Effect::look)
-            continue;
-        const std::string now = shown(field, lab.scene), loaded = shown(field, lab.loaded);
-        section.table->rows.push_back({std::string(field.key), std::string(field.label), now,
-                                       std::string(field.shown.unit), now == loaded ? Value() : Value(loaded)});
-    }
-    section.notes = {"scene.json has all of them, with colliders, pins, camera and look."};
-    return section;
 }
 
 ReportSection state(const ui::Lab& lab) {
@@ -210,7 +168,7 @@ experiments::Report session_report(const ui::Lab& lab, std::uint64_t hash) {
     for (std::size_t i = 0; i < ui::experiment_kinds; ++i)
         if (const auto& found = lab.experiments.found[i])
             report.sections.push_back(section_of(found->findings, ui::experiment_names[i], found->command));
-    report.sections.push_back(parameters(lab));
+    report.sections.push_back(experiments::parameter_section(lab.scene, lab.loaded));
     report.sections.push_back(again(lab, hash));
     return report;
 }

@@ -7,6 +7,7 @@
 
 #include "app/core/data_folder.h"
 #include "cli/experiment/experiment.h"
+#include "experiments/page.h"
 #include "scene/fields.h"
 #include "scene/io.h"
 #include "sim/execution.h"
@@ -199,7 +200,11 @@ void apply(const std::vector<std::string>& settings, const std::string& option, 
     }
 }
 
-int run_program(int argc, const char* const* argv, const GuiCommands& gui) {
+int run_program(int argc, const char* const* argv, const GuiCommands& commands) {
+    GuiCommands gui = commands;
+    gui.command = "clothlab";
+    for (int i = 1; i < argc; ++i)
+        gui.command += " " + experiments::shell_word(argv[i]);
     CLI::App app("clothlab: an interactive laboratory for mass-spring cloth", "clothlab");
     app.set_version_flag("--version", "clothlab " CLOTHLAB_VERSION);
     int status = 0;

@@ -121,6 +121,7 @@ struct GuiCommands {
     std::function<int(const GalleryArguments&)> gallery;
     /// Draws a chart into a PNG file of a size in px. Throws scene::SceneError when it cannot be written.
     std::function<void(const experiments::Chart&, const std::string& file, int width, int height)> draw_chart;
+    std::string command = {}; ///< as it was typed, for reports: run_program's own
     /// Throws scene::SceneError for a scene whose look cannot be drawn; `source` begins the sentence.
     std::function<void(const scene::Scene&, const std::string& source)> check_look;
     /// Throws scene::SceneError for a scene whose look cannot be drawn, std::runtime_error for a file that cannot be

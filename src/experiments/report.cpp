@@ -1,8 +1,10 @@
 #include "experiments/report.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "experiments/page.h"
+#include "scene/fields.h"
 
 namespace clothlab::experiments {
 namespace {
@@ -93,6 +95,26 @@ std::string plain(const std::string& text) {
     return result;
 }
 
+std::string value_of(const scene::Field& field, const scene::Scene& scene) {
+    char text[96];
+    switch (field.type) {
+    case scene::FieldType::boolean:
+        return field.get(scene) != 0 ? "on" : "off";
+    case scene::FieldType::choice:
+        return std::string(field.choices[static_cast<std::size_t>(field.get(scene))]);
+    case scene::FieldType::vector: {
+        const sim::Vec3 v = field.get_vector(scene);
+        std::snprintf(text, sizeof text, "%.6g, %.6g, %.6g", v.x, v.y, v.z);
+        return text;
+    }
+    case scene::FieldType::text:
+        return field.get_text(scene);
+    default:
+        std::snprintf(text, sizeof text, "%.9g", field.get(scene) * field.shown.factor);
+        return text;
+    }
+}
+
 std::string markdown_of(const ReportSection& section) {
     std::string text = "## " + plain(section.title) + "\n\n";
     for (const std::string& paragraph : section.paragraphs)
@@ -147,6 +169,25 @@ ReportSection section_of(const Findings& findings, const std::string& name, cons
     section.notes = findings.notes;
     if (!command.empty())
         section.commands.push_back(command);
+    return section;
+}
+
+ReportSection parameter_section(const scene::Scene& scene, const scene::Scene& loaded) {
+    ReportSection section{.title = "Parameters"};
+    Table table;
+    table.columns = {{"key", "Key"}, {"parameter", "Parameter"}, {"value", "Value"}, {"unit", "Unit"}};
+    if (!(scene.simulation == loaded.simulation))
+        table.columns.push_back({"loaded", "As loaded, where it was another"});
+    for (const scene::Field& field : scene::fields()) {
+        if (field.effect == scene::Effect::look)
+            continue;
+        const std::string now = value_of(field, scene), before = value_of(field, loaded);
+        table.rows.push_back({std::string(field.key), std::string(field.label), now, std::string(field.shown.unit)});
+        if (table.columns.size() > 4)
+            table.rows.back().push_back(now == before ? Value() : Value(before));
+    }
+    section.table = std::move(table);
+    section.notes = {"scene.json has all of them, with colliders, pins, camera and look."};
     return section;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/findings.h"
+#include "scene/scene.h"
 
 namespace clothlab::experiments {
 
@@ -39,6 +40,9 @@ inline constexpr std::size_t most_rows_shown = 200;
 
 /// The section of an experiment, without its files: those are named NAME.csv, NAME.png, NAME-2.png, ...
 ReportSection section_of(const Findings& findings, const std::string& name, const std::string& command);
+
+/// All parameters of a simulation, with those of the scene as it was loaded where they differ.
+ReportSection parameter_section(const scene::Scene& scene, const scene::Scene& loaded);
 
 /// "clothlab 0.1.0, compiled by GCC 12.2.0".
 std::string program_version();

@@ -1,7 +1,7 @@
 // `clothlab experiment accuracy`.
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <algorithm>
+#include <charconv>
 #include <memory>
 
 #include "cli/experiment/experiment.h"
@@ -70,8 +70,8 @@ int run(AccuracyArguments& a, const GuiCommands& gui) {
     for (const experiments::ErrorQuantityInfo& quantity : experiments::error_quantities())
         if (a.quantity == quantity.name)
             config.quantity = quantity.id;
-    return conduct([&](const experiments::Progress& progress) { return run_accuracy(config, progress); }, a.output,
-                   gui);
+    return conduct([&](const experiments::Progress& progress) { return run_accuracy(config, progress); }, config.scene,
+                   a.output, gui);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -49,17 +50,39 @@ void print(const Findings& findings) {
         std::cout << "- " << note << "\n";
 }
 
+/// report.html, report.md and what they show.
+void write_report(const Findings& findings, const scene::Scene& scene, const std::string& folder,
+                  const GuiCommands& gui, int width, int height) {
+    const std::filesystem::path path(folder);
+    const std::string name = "findings";
+    experiments::ReportSection section = section_of(findings, name, gui.command);
+    if (gui.draw_chart)
+        for (std::size_t i = 0; i < findings.charts.size(); ++i)
+            gui.draw_chart(findings.charts[i], (path / section.pictures[i].file).string(), width, height);
+    else
+        section.pictures.clear();
+    scene::write_text_file(to_csv(findings.table), path / section.table_file);
+    scene::save_scene(scene, path / "scene.json");
+    section.notes.push_back("Made by " + experiments::program_version() + ".");
+    const experiments::Report report{findings.title, {section, experiments::parameter_section(scene, scene)}};
+    scene::write_text_file(to_markdown(report), path / "report.md");
+    scene::write_text_file(to_html(report), path / "report.html");
+}
+
 } // namespace
 
 void add_output(CLI::App& app, FindingsOutput& output) {
     app.add_option("--csv", output.csv, "Write the table to this file; - is standard output, and then nothing else is");
     app.add_option("--png", output.png, "Draw the chart into this file; further charts get -2, -3 ... in their names");
     app.add_option("--size", output.size, "WIDTHxHEIGHT of the pictures in pixels (default: 1200x800)");
+    app.add_option("--report", output.report,
+                   "Write it all up in this folder, made where it is missing: report.html and report.md, the charts, "
+                   "the table, the scene and its parameters, the command");
     app.add_flag("--json", output.json, "Print everything as one JSON object");
 }
 
-int conduct(const std::function<Findings(const experiments::Progress&)>& experiment, const FindingsOutput& output,
-            const GuiCommands& gui) {
+int conduct(const std::function<Findings(const experiments::Progress&)>& experiment, const scene::Scene& scene,
+            const FindingsOutput& output, const GuiCommands& gui) {
     if (output.csv == "-" && output.json)
         throw scene::SceneError("--csv -: standard output can hold the table or --json, not both");
     int width = 0, height = 0;
@@ -69,6 +92,11 @@ int conduct(const std::function<Findings(const experiments::Progress&)>& experim
     for (const std::string& file : {output.csv, output.png})
         if (!file.empty() && file != "-")
             scene::WholeFile{file};
+    if (!output.report.empty()) {
+        std::error_code error;
+        std::filesystem::create_directories(output.report, error);
+        scene::WholeFile{(std::filesystem::path(output.report) / "report.html").string()};
+    }
     Findings findings;
     {
         ProgressBar bar(std::cerr, 1, isatty(STDERR_FILENO) != 0);
@@ -93,6 +121,8 @@ int conduct(const std::function<Findings(const experiments::Progress&)>& experim
     if (!output.png.empty())
         for (std::size_t i = 0; i < findings.charts.size(); ++i)
             gui.draw_chart(findings.charts[i], experiments::chart_file(output.png, i), width, height);
+    if (!output.report.empty())
+        write_report(findings, scene, output.report, gui, width, height);
     return 0;
 }
 

@@ -18,6 +18,7 @@ struct FindingsOutput {
     std::string csv;               ///< the table; empty: nowhere
     std::string png;               ///< the chart; further ones get -2, -3 ... before the ending
     std::string size = "1200x800"; ///< of the pictures, in px
+    std::string report;            ///< folder for a write-up; empty: none
     bool json = false;             ///< one object on standard output instead of text
 };
 
@@ -25,11 +26,11 @@ void add_output(CLI::App& app, FindingsOutput& output);
 /// The scene and --set, as every subcommand has them.
 void add_scene(CLI::App& app, SceneArguments& arguments, bool required);
 
-/// Runs an experiment with a progress bar on standard error, prints and writes what it found, and returns the exit
-/// status. That an output cannot be written, or that there is no GUI to draw with, is said before the work. Throws
-/// scene::SceneError; a Refusal becomes one.
+/// Runs an experiment on a scene with a progress bar on standard error, prints and writes what it found, and returns
+/// the exit status. That an output cannot be written, or that there is no GUI to draw with, is said before the work.
+/// Throws scene::SceneError; a Refusal becomes one.
 int conduct(const std::function<experiments::Findings(const experiments::Progress&)>& experiment,
-            const FindingsOutput& output, const GuiCommands& gui);
+            const scene::Scene& scene, const FindingsOutput& output, const GuiCommands& gui);
 
 /// Adds `experiment` with all its subcommands, each of which sets `status` when it has run.
 void add_experiments(CLI::App& app, const GuiCommands& gui, int& status);

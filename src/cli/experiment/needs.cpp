@@ -54,7 +54,7 @@ int needs(const Arguments& a, const GuiCommands& gui) {
         }
         return std::move(result.findings);
     };
-    return conduct(experiment, a.output, gui);
+    return conduct(experiment, config.scene, a.output, gui);
 }
 
 } // namespace

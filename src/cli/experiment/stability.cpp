@@ -45,7 +45,8 @@ int stability(const StabilityArguments& a, const GuiCommands& gui) {
             config.x = a.x;
         if (!a.y.empty())
             config.y = a.y;
-        return conduct([&](const Progress& progress) { return map_stability(config, progress); }, a.output, gui);
+        return conduct([&](const Progress& progress) { return map_stability(config, progress); }, config.scene,
+                       a.output, gui);
     }
     experiments::BisectionConfig config;
     config.scene = a.scene.load();
@@ -55,7 +56,8 @@ int stability(const StabilityArguments& a, const GuiCommands& gui) {
     config.precision = 0.01 * a.precision;
     config.judge = judge;
     config.threads = threads;
-    return conduct([&](const Progress& progress) { return bisect_stability(config, progress); }, a.output, gui);
+    return conduct([&](const Progress& progress) { return bisect_stability(config, progress); }, config.scene, a.output,
+                   gui);
 }
 
 } // namespace

@@ -115,8 +115,8 @@ public:
         FindingsOutput output = arguments_.output;
         if (is_journal(output.csv))
             output.csv.clear(); // written here, cell by cell
-        const int status =
-            conduct([this](const experiments::Progress& progress) { return run(progress); }, output, gui_);
+        const int status = conduct([this](const experiments::Progress& progress) { return run(progress); },
+                                   sweep_.config().scene, output, gui_);
         if (!failed_.empty())
             return complain();
         if (!arguments_.pictures.empty()) {
