@@ -117,6 +117,21 @@ TEST_CASE("A swinging cloth blows up within 1 % of the predicted ks, held by the
     }
 }
 
+TEST_CASE("What Runge-Kutta 4 lets grow under a smooth motion is found within 1 % too, though it stays small") {
+    const scene::Scene cloth = shipped("two-pins", {"cloth.num_width_points=16", "cloth.num_height_points=16",
+                                                    "cloth.pinned=[[0,0],[15,0]]", "simulation.integrator=rk4"});
+    REQUIRE_THAT(distance_percent(bisected(cloth, 8e-3)), WithinAbs(0, 1));
+}
+
+TEST_CASE("Cloth that falls onto a plane and itself is stable, however restless its contacts are") {
+    for (const char* ks : {"cloth.ks=5000", "cloth.ks=40000"}) { // up to 0.75 of the limit
+        const scene::Scene cloth =
+            shipped("self-collision", {"cloth.num_width_points=25", "cloth.num_height_points=25", ks});
+        REQUIRE(limit_ratio(cloth.simulation) < 0.8);
+        REQUIRE(verdict(cloth.simulation, 60) == Verdict::stable);
+    }
+}
+
 TEST_CASE("Default cloth blows up within 1 % of the predicted ks with Verlet, in both precisions", "[.][stability]") {
     for (const char* method : {"course-verlet", "velocity-verlet", "symplectic-euler"})
         for (const char* precision : {"single", "double"}) {
