@@ -13,7 +13,8 @@ using Catch::Matchers::ContainsSubstring;
 using nlohmann::ordered_json;
 
 TEST_CASE("experiment stability --bisect finds the chain's limit and says how far off the prediction is", "[program]") {
-    const Finished run = clothlab({"experiment", "stability", "chain", "--bisect", "ks", "--frames", "20", "--json"});
+    const Finished run =
+        test::clothlab({"experiment", "stability", "chain", "--bisect", "ks", "--frames", "20", "--json"});
     REQUIRE(run.status == 0);
     const ordered_json json = ordered_json::parse(run.out);
     bool found = false;
@@ -27,8 +28,8 @@ TEST_CASE("experiment stability --bisect finds the chain's limit and says how fa
 }
 
 TEST_CASE("experiment stability maps a scene and writes a row for each run", "[program]") {
-    const Finished run = clothlab({"experiment", "stability", "chain", "-x", "density=1:4:3", "-y", "ks=1e4:1e6:6log",
-                                   "--frames", "5", "--threads", "2", "--csv", "-"});
+    const Finished run = test::clothlab({"experiment", "stability", "chain", "-x", "density=1:4:3", "-y",
+                                         "ks=1e4:1e6:6log", "--frames", "5", "--threads", "2", "--csv", "-"});
     REQUIRE(run.status == 0);
     const experiments::Table table = experiments::from_csv(run.out);
     REQUIRE(table.rows.size() > 6);
@@ -39,7 +40,7 @@ TEST_CASE("experiment stability maps a scene and writes a row for each run", "[p
 TEST_CASE("experiment stability refuses what has no meaning, with status 2", "[program]") {
     const auto refused = [](std::vector<std::string> arguments, const char* why) {
         arguments.insert(arguments.begin(), {"experiment", "stability", "chain", "--frames", "2"});
-        const Finished run = clothlab(arguments);
+        const Finished run = test::clothlab(arguments);
         INFO(run.err);
         REQUIRE(run.status == 2);
         REQUIRE_THAT(run.err, ContainsSubstring(why));
