@@ -49,7 +49,7 @@ double distance_percent(const Findings& findings) {
 Verdict verdict(const sim::Description& description, std::optional<std::uint64_t> frames = 40) {
     JudgeConfig config;
     config.frames = frames;
-    return judge(description, config, false).verdict;
+    return judge(description, config, [] {}).verdict;
 }
 
 } // namespace

@@ -104,7 +104,7 @@ TEST_CASE("Settings of a row make its run, and cells can be clicked") {
     REQUIRE(findings.settings.size() == findings.table.rows.size());
     for (const std::size_t row : {std::size_t{0}, findings.table.rows.size() - 1}) {
         const sim::Description description = with(config.scene, findings.settings[row]).simulation;
-        const Judged again = judge(description, config.judge, false);
+        const Judged again = judge(description, config.judge, [] {});
         REQUIRE(verdict_names[static_cast<std::size_t>(again.verdict)] == findings.table.text(row, "verdict"));
     }
     const Chart& chart = findings.charts[0];

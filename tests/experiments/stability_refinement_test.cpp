@@ -77,7 +77,7 @@ TEST_CASE("A border is followed into blocks whose corners are alike, however it 
     REQUIRE(refine(lattice, judge_by(wave)).kind == full(lattice, wave));
 }
 
-TEST_CASE("An island between the points of the coarse lattice is not seen; a finer coarse lattice sees it") {
+TEST_CASE("An island between the points of the coarse lattice is not seen, and a finer coarse lattice sees it") {
     const Rule island = [](std::size_t x, std::size_t y) { return disc(x, y, 20, 20, 3); };
     Lattice lattice{{65, true}, {65, true}};
     REQUIRE(refine(lattice, judge_by(island)).kind != full(lattice, island));
