@@ -77,9 +77,7 @@ private:
         const double share = std::min(0.95, static_cast<double>(runs_.size()) / 12);
         run_parallel(
             wanted.size(), config_.threads,
-            [&](std::size_t i, const std::atomic<bool>& stop) {
-                judged[i] = judge(description(wanted[i]), config_.judge, stop);
-            },
+            [&](std::size_t i, const Check& check) { judged[i] = judge(description(wanted[i]), config_.judge, check); },
             [&](std::size_t) {
                 progress_.tell(share, quantity_.key + "=" + (wanted.empty() ? "" : digits_of(wanted.front())));
             });
@@ -153,10 +151,8 @@ private:
     /// Near the observed limit: from the start pose, and from the largest omega of the poses of the last stable run.
     void predict() {
         const double last = stable(low_) ? low_ : high_;
-        JudgeConfig same = config_.judge;
-        const std::atomic<bool> never = false;
-        progress_.tell(0.96, "poses of the last stable run");
-        const Judged posed = judge(description(last), same, never, true);
+        const auto tell = [&] { progress_.tell(0.96, "poses of the last stable run"); };
+        const Judged posed = judge(description(last), config_.judge, tell, true);
         const double pose = posed.omega_dt > 0 ? posed.pose_omega_dt / posed.omega_dt : 1;
         const auto nearest = [&](const std::function<double(double)>& f) -> std::optional<double> {
             for (const double reach : {1.05, 2.0, 16.0}) {

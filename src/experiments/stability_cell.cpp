@@ -92,8 +92,7 @@ std::uint64_t frames_of(const sim::Description& description, const JudgeConfig& 
     return std::max(frames(default_seconds), (default_steps + substeps - 1) / substeps);
 }
 
-Judged judge(const sim::Description& description, const JudgeConfig& config, const std::atomic<bool>& stop,
-             bool poses) {
+Judged judge(const sim::Description& description, const JudgeConfig& config, const Check& check, bool poses) {
     Judged result;
     try {
         const auto simulation = sim::Simulation::create(description);
@@ -123,8 +122,7 @@ Judged judge(const sim::Description& description, const JudgeConfig& config, con
         while (simulation->frame() < end) {
             const std::uint64_t frame = simulation->frame();
             while (simulation->frame() == frame) {
-                if (stop)
-                    throw Cancelled();
+                check();
                 simulation->step();
                 if (series && !series->full())
                     series->add(*simulation);

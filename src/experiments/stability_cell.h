@@ -2,11 +2,11 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include "experiments/run_parallel.h"
 #include "sim/description.h"
 
 namespace clothlab::experiments {
@@ -59,8 +59,7 @@ std::uint64_t frames_of(const sim::Description& description, const JudgeConfig& 
 /// Dormand-Prince 3e-7 a step at 0.1 % beyond its limit). In double precision only, and where one mode is the fastest.
 ///
 /// With `poses`, the margin is computed at the end of every tenth frame. Throws Refusal for descriptions without
-/// meaning, and Cancelled soon after `stop` has become true.
-Judged judge(const sim::Description& description, const JudgeConfig& config, const std::atomic<bool>& stop,
-             bool poses = false);
+/// meaning. `check` is called in every step.
+Judged judge(const sim::Description& description, const JudgeConfig& config, const Check& check, bool poses = false);
 
 } // namespace clothlab::experiments

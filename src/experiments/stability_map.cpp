@@ -80,9 +80,9 @@ private:
         judged_.resize(before + points.size());
         run_parallel(
             points.size(), config_.threads,
-            [&](std::size_t i, const std::atomic<bool>& stop) {
+            [&](std::size_t i, const Check& check) {
                 const scene::Scene scene = with(config_.scene, settings(points[i].x, points[i].y));
-                judged_[before + i] = judge(scene.simulation, config_.judge, stop);
+                judged_[before + i] = judge(scene.simulation, config_.judge, check);
             },
             [&](std::size_t done) { tell(before + done); });
         std::vector<int> kinds;
@@ -102,11 +102,10 @@ private:
             values.push_back(along_.values.back().at);
         run_parallel(
             across_.values.size(), config_.threads,
-            [&](std::size_t line, const std::atomic<bool>& stop) {
+            [&](std::size_t line, const Check& check) {
                 predicted_[line] = crossings(
                     [&](double value) {
-                        if (stop)
-                            throw Cancelled();
+                        check();
                         Settings at = across_.values[line].settings;
                         for (const std::string& setting : settings_of(along_.quantity, value, config_.scene))
                             at.push_back(setting);
