@@ -260,7 +260,7 @@ TEST_CASE("GNU parallel runs the shards, as docs/sweeps.md shows", "[program]") 
     REQUIRE(lines_of(folder / "part-4.csv") == 3);
 }
 
-TEST_CASE("A file of something else is refused and left as it is; --fresh replaces it", "[program]") {
+TEST_CASE("A file of something else is refused and left as it is, and replaced with --fresh", "[program]") {
     const TemporaryFolder folder;
     const std::string scene = small_scene(folder);
     const std::string file = (folder / "t.csv").string();

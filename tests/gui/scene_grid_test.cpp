@@ -51,6 +51,18 @@ std::size_t count_of(const render::Image& image, const std::array<std::uint8_t, 
     return count;
 }
 
+/// Pixels of the colour of trouble, smooth edges included: lighter or darker, but with its proportions.
+std::size_t trouble_of(const render::Image& image) {
+    std::size_t count = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const std::uint8_t* p = image.pixel(x, y);
+            const double red = p[0], green = p[1] / red, blue = p[2] / red;
+            count += red > 120 && std::abs(green - 0.69) < 0.06 && std::abs(blue - 0.52) < 0.06;
+        }
+    return count;
+}
+
 } // namespace
 
 TEST_CASE("A grid's pictures stand in rows and columns, clear of each other and of the labels") {
@@ -88,6 +100,14 @@ TEST_CASE("Labels that are too long for a grid are cut off, not written over the
     REQUIRE(count_of(after, {200, 0, 0}) == 6 * 120 * 90);
     REQUIRE(after.height == before.height);
     REQUIRE(after.width <= before.width + 120);
+}
+
+TEST_CASE("What went wrong in a run stands below its picture in another colour") {
+    cli::SceneGrid grid = made_up_grid();
+    const std::vector<render::Image> pictures(6, plain(120, 90, 200));
+    REQUIRE(trouble_of(labelled_grid(grid, pictures, faces())) == 0);
+    grid.cells[5].trouble = "diverged";
+    REQUIRE(trouble_of(labelled_grid(grid, pictures, faces())) > 10);
 }
 
 TEST_CASE("A look that cannot be drawn is said before the runs") {
@@ -128,7 +148,6 @@ TEST_CASE("A sweep draws a picture of every cell, the first parameter to the rig
     const render::Image whole = render::read_png(file);
     REQUIRE(whole.width > 3 * 160);
     REQUIRE(whole.height > 2 * 120);
-    REQUIRE(count_of(whole, {0xF5, 0xA9, 0x7F}) > 10); // "diverged", of the last column
 
     const auto refused = [&](const std::vector<std::string>& more) {
         std::vector<std::string> all = words;

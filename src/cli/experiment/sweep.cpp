@@ -272,7 +272,8 @@ void add_sweep(CLI::App& experiment, const GuiCommands& gui, int& status) {
         ->required()
         ->take_all()
         ->allow_extra_args(false);
-    auto* frames = sweep->add_option("--frames", a.frames, "Frames of each run (default: 90)");
+    auto* frames =
+        sweep->add_option("--frames", a.frames, "Frames of each run (default: 90)")->check(CLI::NonNegativeNumber);
     sweep->add_option("--seconds", a.seconds, "Simulated seconds of each run instead, rounded up to a whole frame")
         ->check(CLI::NonNegativeNumber)
         ->excludes(frames);
