@@ -8,7 +8,7 @@ namespace clothlab::timeline {
 namespace {
 
 /// Frames on either side of one that tell what it takes, so that it does not count when the machine paused.
-constexpr std::ptrdiff_t around = 4;
+constexpr std::ptrdiff_t around = 2;
 
 double median(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
