@@ -44,9 +44,6 @@ void Timeline::thin(std::size_t most, const std::vector<StepCosts>& costs, GapOf
                 return false;
             const FrameTime from = timeline::frame_time(branch, before.step);
             const FrameTime to = timeline::frame_time(branch, keyframe.until);
-            // A frame's end stays the one to go to when states within the frame are left.
-            if (from.substep != 0 && timeline::frame_time(branch, keyframe.step).substep == 0)
-                return false;
             return to.frame + (to.substep != 0 ? 1u : 0u) - from.frame <= gap.frames &&
                    costs[b].between_s(before.step, keyframe.until) <= gap.seconds;
         };
