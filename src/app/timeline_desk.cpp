@@ -169,6 +169,7 @@ void TimelineDesk::carry_out(const ui::SetBreakpoints& r) {
 void TimelineDesk::carry_out(const ui::SetCacheBudget& r) {
     timeline::CacheOptions options;
     options.budget = r.bytes;
+    options.least_reach_s = r.least_reach_s;
     simulation_.set_cache(options);
 }
 

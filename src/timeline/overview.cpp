@@ -63,6 +63,7 @@ Overview overview(const Player& player) {
     o.bookmarks = timeline.bookmarks();
     o.memory = player.memory();
     o.budget = player.options().budget;
+    o.least_reach_s = player.options().least_reach_s;
     o.line = player.line();
     if (o.line == 0)
         return o;

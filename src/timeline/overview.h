@@ -56,6 +56,7 @@ struct Overview {
     std::vector<MarkInfo> marks;
     std::vector<Sample> samples;        ///< ascending by frame, with gaps where states have been dropped
     std::size_t memory = 0, budget = 0; ///< bytes
+    double least_reach_s = 0;           ///< CacheOptions
 };
 
 /// Where the playhead is.

@@ -15,8 +15,6 @@ namespace {
 constexpr double stored_share = 0.25;
 /// Of the budget, for states on the way of a seek.
 constexpr std::size_t way_share = 8;
-/// A frame that costs more than a seek may, times this, has states within it; they are the first to be thinned out.
-constexpr double slow_frame = 2;
 constexpr std::uint64_t widest_stride = 16; ///< frames
 /// Of the newest frame in the mean cost of a frame.
 constexpr double newest_share = 0.02;
@@ -56,7 +54,8 @@ void Player::start(const sim::Description& description) {
     clock.substeps = stepping.substeps;
     clock.dt = 1 / (stepping.frames_per_second * stepping.substeps);
     line_ = timeline_.add_root(begin, clock);
-    forget_costs();
+    seconds_per_frame_ = 0;
+    timed_frames_ = 0;
     timeline_.store(line_, {0, 0, begin, nullptr, false});
     at_ = {};
     begin_branch();
@@ -92,26 +91,12 @@ void Player::put_clock(Branch& branch) {
                              1 / (stepping.frames_per_second * stepping.substeps)});
 }
 
-void Player::forget_costs() {
-    seconds_per_frame_ = slowest_frame_s_ = 0;
-    timed_frames_ = 0;
-}
-
-void Player::add_cost(double frame_s) {
-    seconds_per_frame_ += std::max(newest_share, 1.0 / ++timed_frames_) * (frame_s - seconds_per_frame_);
-    if (timed_frames_ * newest_share >= 1) // the first ones pay for cold caches
-        slowest_frame_s_ = std::max(slowest_frame_s_, seconds_per_frame_);
-}
-
-void Player::fit() {
-    timeline_.fit(std::max(seconds_per_frame_, slowest_frame_s_));
-}
-
 void Player::store_state(Branch& branch, bool kept) {
     const std::uint64_t step = simulation_->steps();
     const Keyframe* there = keyframe_before(branch, step);
     if (there && there->step == step && !there->state)
         return; // the start of a run needs none
+    since_stored_s_ = 0;
     timeline_.store(branch.id,
                     {step, step, description_, keep_in_memory(compress_state(simulation_->save_state())), kept});
 }
@@ -173,7 +158,7 @@ void Player::finish_change(Branch& branch) {
     timeline_.revise();
     frame_ = {};
     ++version_;
-    fit();
+    timeline_.fit();
 }
 
 bool Player::at_end() const {
@@ -196,10 +181,16 @@ sim::StepCounts Player::step() {
 
 sim::StepCounts Player::record() {
     Branch& branch = *timeline_.find(line_);
-    if (frame_.steps == 0)
+    if (frame_.steps == 0) {
         frame_.seconds = simulation_->stage_seconds();
+        since_stored_s_ = static_cast<double>(branch.end - branch.keyframes.back().step) * seconds_per_frame_ /
+                          description_->stepping.substeps;
+    }
     const std::uint64_t frame = simulation_->frame();
+    const double before_s = sum(simulation_->stage_seconds());
     const sim::StepCounts counts = simulation_->step();
+    const double step_s = sum(simulation_->stage_seconds()) - before_s;
+    since_stored_s_ += step_s;
     branch.end = simulation_->steps();
     branch.stem = false;
     branch.keyframes.back().until = branch.end;
@@ -212,7 +203,7 @@ sim::StepCounts Player::record() {
     if (simulation_->frame() != frame)
         end_frame(branch);
     else
-        store_within_frame(branch);
+        store_within_frame(branch, step_s);
     ++version_;
     return counts;
 }
@@ -239,24 +230,21 @@ void Player::end_frame(Branch& branch) {
     frame_ = {};
 
     const double cost = sum(spent) * description_->stepping.substeps;
-    add_cost(cost);
+    seconds_per_frame_ += std::max(newest_share, 1.0 / ++timed_frames_) * (cost - seconds_per_frame_);
     const double stride = cost > 0 ? stored_share * timeline_.options().seek_s / seconds_per_frame_ : 1;
     const auto frames = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(std::min(stride, 1e6)), 1, widest_stride);
     const std::uint64_t stored = frame_time(branch, branch.keyframes.back().step).frame;
     if (sample.frame - stored >= frames) {
         store_state(branch, false);
-        fit();
+        timeline_.fit();
     }
 }
 
-void Player::store_within_frame(Branch& branch) {
-    const double step_s = seconds_per_frame_ / description_->stepping.substeps;
-    const auto steps = static_cast<double>(branch.end - branch.keyframes.back().step);
-    if (seconds_per_frame_ <= slow_frame * timeline_.options().seek_s ||
-        steps * step_s < slow_frame * timeline_.options().seek_s)
+void Player::store_within_frame(Branch& branch, double step_s) {
+    if (since_stored_s_ + step_s <= slow_frame * timeline_.options().seek_s)
         return;
     store_state(branch, false);
-    fit();
+    timeline_.fit();
 }
 
 void Player::mark(Branch& branch, MarkKind kind, double value, std::string text) {
@@ -358,7 +346,7 @@ std::uint32_t Player::bookmark(std::string name, std::optional<scene::Camera> ca
     const BranchId owner = timeline_.owner(moment()).id;
     const std::uint32_t id = timeline_.add_bookmark(moment(), std::move(name), std::move(camera));
     store_state(*timeline_.find(owner), true);
-    fit();
+    timeline_.fit();
     ++version_;
     return id;
 }
@@ -415,11 +403,7 @@ void Player::adopt(Timeline timeline, const Moment& at) {
         throw;
     }
     begin_branch();
-    forget_costs();
-    for (const Sample& sample : timeline_.owner(moment()).samples)
-        add_cost(std::accumulate(sample.stage_seconds.begin(), sample.stage_seconds.end(), 0.0) *
-                 description_->stepping.substeps);
-    fit();
+    timeline_.fit();
 }
 
 void Player::set_options(const CacheOptions& options) {
@@ -428,7 +412,7 @@ void Player::set_options(const CacheOptions& options) {
     CacheOptions stored = options;
     stored.budget -= most_passed_bytes_;
     timeline_.set_options(stored);
-    fit();
+    timeline_.fit();
     ++version_;
 }
 

@@ -82,14 +82,11 @@ private:
 
     sim::StepCounts record();
     void end_frame(Branch& branch);
-    void store_within_frame(Branch& branch);
+    void store_within_frame(Branch& branch, double step_s);
     void mark(Branch& branch, MarkKind kind, double value, std::string text);
     void look_for_marks(Branch& branch, const sim::StepCounts& counts);
     void look_for_peak(Branch& branch);
     void store_state(Branch& branch, bool kept);
-    void forget_costs();
-    void add_cost(double frame_s);
-    void fit();
     void put_clock(Branch& branch);
     void finish_change(Branch& branch);
     void begin_branch();
@@ -112,10 +109,10 @@ private:
     std::optional<BeforeChange> before_change_;
     FrameSoFar frame_;
     std::array<bool, mark_kinds> found_{}; ///< on the line shown, once for all
-    /// What a step takes, times steps per frame: the mean of the newest frames of this run, and its largest so far, for
-    /// which states that are there already must be close enough.
-    double seconds_per_frame_ = 0, slowest_frame_s_ = 0;
+    /// What a step takes, times steps per frame: the mean of the newest frames of this run.
+    double seconds_per_frame_ = 0;
     int timed_frames_ = 0;
+    double since_stored_s_ = 0; ///< that the steps since the newest stored state took
 };
 
 } // namespace clothlab::timeline

@@ -5,6 +5,13 @@
 #include <utility>
 
 namespace clothlab::timeline {
+namespace {
+
+/// Steps between states that are kept within a frame: saving one takes about as long as a step.
+constexpr std::uint64_t between_passed = 5;
+
+} // namespace
+
 void Reader::take(const DescriptionPtr& description, const std::vector<std::byte>* state) {
     const bool fits = state && simulation_ && can_change_live(simulation_->description(), *description);
     if (!fits) {
@@ -62,7 +69,8 @@ void Reader::seek(const Timeline& timeline, const Moment& moment) {
     if (!keyframe)
         throw std::out_of_range("step " + std::to_string(moment.step) + " is not in the cache");
     const Moment target{owner.id, moment.step};
-    const bool back = at_.branch == owner.id && at_.step > target.step;
+    const bool back = at_.branch == owner.id && at_.step > target.step &&
+                      at_.step - target.step <= static_cast<std::uint64_t>(frame_time(owner, at_.step).substeps);
 
     // From the nearest of: where the simulation is, a state on the way of an earlier seek, the stored state.
     const Passed* passed = passed_before(target, keyframe->step);
@@ -86,14 +94,18 @@ void Reader::seek(const Timeline& timeline, const Moment& moment) {
             at_ = {owner.id, keyframe->step};
         }
     }
-    // Who goes back is likely to go on doing so: through the frames, or through the steps of this one.
+    // Who goes back by one is likely to go on doing so: through the frames, or through the steps of this one.
     const FrameTime time = frame_time(owner, target.step);
     const std::uint64_t frame_begin = target.step - static_cast<std::uint64_t>(time.substep);
+    std::uint64_t passed_at = at_.step;
     auto next = std::upper_bound(owner.changes.begin(), owner.changes.end(), at_.step,
                                  [](std::uint64_t s, const Change& c) { return s < c.step; });
     while (at_.step < target.step) {
-        if (back && (simulation_->substep() == 0 || (time.substep > 0 && at_.step >= frame_begin)))
+        const bool within = time.substep > 0 && at_.step >= frame_begin && at_.step >= passed_at + between_passed;
+        if (back && (simulation_->substep() == 0 || within)) {
             pass();
+            passed_at = at_.step;
+        }
         simulation_->step();
         ++at_.step;
         for (; next != owner.changes.end() && next->step == at_.step; ++next)

@@ -2,39 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 namespace clothlab::timeline {
 namespace {
 
-/// Freed beyond what is needed, as a share of the budget, so that fitting is done now and then, not for every state.
-constexpr double slack = 0.03;
-/// How much slower than wanted a seek may become before states within the least reach are dropped.
-constexpr double slowest = 4;
-
-std::size_t bytes(const Keyframe& keyframe) {
-    return sizeof keyframe + (keyframe.state ? keyframe.state->memory() : 0);
-}
-
 std::size_t bytes(const sim::Description& description) {
     return sizeof description + description.cloth.pinned.capacity() * sizeof(sim::GridPoint) +
            description.colliders.capacity() * sizeof(sim::Collider);
-}
-
-std::size_t bytes_without_keyframes(const Branch& branch) {
-    std::size_t sum = sizeof branch + branch.samples.size() * sizeof(Sample) + branch.marks.size() * sizeof(Mark) +
-                      branch.clocks.size() * sizeof(FrameClock);
-    for (const Change& change : branch.changes)
-        sum += sizeof change + bytes(*change.description);
-    return sum;
-}
-
-/// Simulated seconds that are reached from a state.
-double span_s(const Branch& branch, const Keyframe& keyframe) {
-    return frame_time(branch, keyframe.until).time - frame_time(branch, keyframe.step).time;
 }
 
 auto first_after(std::vector<Keyframe>& keyframes, std::uint64_t step) {
@@ -53,10 +29,22 @@ const Keyframe* keyframe_before(const Branch& branch, std::uint64_t step) {
     return step <= keyframe.until ? &keyframe : nullptr;
 }
 
+std::size_t memory(const Keyframe& keyframe) {
+    return sizeof keyframe + (keyframe.state ? keyframe.state->memory() : 0);
+}
+
+std::size_t memory_but_keyframes(const Branch& branch) {
+    std::size_t sum = sizeof branch + branch.samples.size() * sizeof(Sample) + branch.marks.size() * sizeof(Mark) +
+                      branch.clocks.size() * sizeof(FrameClock);
+    for (const Change& change : branch.changes)
+        sum += sizeof change + bytes(*change.description);
+    return sum;
+}
+
 std::size_t memory(const Branch& branch) {
-    std::size_t sum = bytes_without_keyframes(branch);
+    std::size_t sum = memory_but_keyframes(branch);
     for (const Keyframe& keyframe : branch.keyframes)
-        sum += bytes(keyframe);
+        sum += memory(keyframe);
     return sum;
 }
 
@@ -176,7 +164,7 @@ void Timeline::add(Branch branch) {
         throw std::invalid_argument("a branch that does not fit");
     next_branch_ = std::max(next_branch_, branch.id + 1);
     for (const Keyframe& keyframe : branch.keyframes)
-        stored_ += bytes(keyframe);
+        stored_ += timeline::memory(keyframe);
     branches_.push_back(std::move(branch));
 }
 
@@ -199,7 +187,7 @@ void Timeline::remove(BranchId id) {
     if (!shared) {
         const BranchId parent = branch->parent;
         for (const Keyframe& keyframe : branch->keyframes)
-            stored_ -= bytes(keyframe);
+            stored_ -= timeline::memory(keyframe);
         branches_.erase(branches_.begin() + (branch - branches_.data()));
         const Branch* above = find(parent);
         if (above && above->stem)
@@ -210,7 +198,7 @@ void Timeline::remove(BranchId id) {
     const std::uint64_t last_frame = timeline::frame_time(*branch, *shared).frame;
     branch->end = std::min(branch->end, *shared);
     for (auto k = first_after(branch->keyframes, branch->end); k != branch->keyframes.end(); ++k)
-        stored_ -= bytes(*k);
+        stored_ -= timeline::memory(*k);
     branch->keyframes.erase(first_after(branch->keyframes, branch->end), branch->keyframes.end());
     if (!branch->keyframes.empty())
         branch->keyframes.back().until = std::min(branch->keyframes.back().until, branch->end);
@@ -260,12 +248,12 @@ void Timeline::store(BranchId id, Keyframe keyframe) {
     Branch* branch = find(id);
     if (!branch)
         throw std::out_of_range("there is no branch " + std::to_string(id));
-    stored_ += bytes(keyframe);
+    stored_ += timeline::memory(keyframe);
     auto after = first_after(branch->keyframes, keyframe.step);
     if (after != branch->keyframes.begin()) {
         Keyframe& before = *std::prev(after);
         if (before.step == keyframe.step) {
-            stored_ -= bytes(before);
+            stored_ -= timeline::memory(before);
             keyframe.until = std::max(keyframe.until, before.until);
             keyframe.kept |= before.kept;
             before = std::move(keyframe);
@@ -299,123 +287,8 @@ void Timeline::refresh_kept(BranchId id) {
 std::size_t Timeline::memory() const {
     std::size_t sum = stored_ + bookmarks_.size() * sizeof(Bookmark);
     for (const Branch& branch : branches_)
-        sum += bytes_without_keyframes(branch);
+        sum += memory_but_keyframes(branch);
     return sum;
-}
-
-void Timeline::thin(std::size_t most, std::uint64_t gap) {
-    std::size_t now = memory();
-    for (Branch& branch : branches_) {
-        std::vector<Keyframe>& list = branch.keyframes;
-        std::size_t kept = std::min<std::size_t>(list.size(), 1); // that many have been looked at and stay
-        for (std::size_t i = 1; i < list.size(); ++i) {
-            bool goes = false;
-            if (now > most && i + 1 < list.size() && !list[i].kept && list[i].state) {
-                Keyframe& before = list[kept - 1];
-                const std::uint64_t from = timeline::frame_time(branch, before.step).frame;
-                const std::uint64_t to = timeline::frame_time(branch, list[i].until).frame;
-                goes = before.until == list[i].step && to - from <= gap;
-                if (goes)
-                    before.until = list[i].until;
-            }
-            if (goes)
-                now -= bytes(list[i]), stored_ -= bytes(list[i]);
-            else if (kept++ != i)
-                list[kept - 1] = std::move(list[i]);
-        }
-        list.resize(kept);
-    }
-}
-
-void Timeline::drop(std::size_t most, bool kept_too, double least_reach_s) {
-    std::size_t now = memory();
-    double reach = reach_s();
-    for (Branch& branch : branches_) {
-        if (now <= most)
-            return;
-        std::vector<Keyframe>& list = branch.keyframes;
-        const std::size_t before = list.size();
-        std::size_t left = 0;
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            // What is at a branch's end is where it goes on.
-            bool goes = now > most && i + 1 < before && list[i].state && (kept_too || !list[i].kept);
-            const double span = goes ? span_s(branch, list[i]) : 0;
-            goes = goes && reach - span >= least_reach_s;
-            if (goes)
-                now -= bytes(list[i]), stored_ -= bytes(list[i]), reach -= span;
-            else if (left++ != i)
-                list[left - 1] = std::move(list[i]);
-        }
-        list.resize(left);
-        if (left == before)
-            continue;
-        now -= bytes_without_keyframes(branch);
-        forget_unreachable(branch);
-        now += bytes_without_keyframes(branch);
-    }
-}
-
-void Timeline::forget_unreachable(Branch& branch) {
-    const auto lies_in = [](const Keyframe& k, std::uint64_t step) { return k.step <= step && step <= k.until; };
-    // Keyframes, changes, clocks and samples all ascend: one walk over each.
-    const auto forget = [&](auto& list, auto step_of, auto needed) {
-        std::size_t k = 0;
-        std::erase_if(list, [&](const auto& entry) {
-            const std::uint64_t step = step_of(entry);
-            while (k + 1 < branch.keyframes.size() && branch.keyframes[k + 1].step <= step)
-                ++k;
-            return !needed(step, k);
-        });
-    };
-    const auto reached = [&](std::uint64_t step, std::size_t k) {
-        return !branch.keyframes.empty() && lies_in(branch.keyframes[k], step);
-    };
-    forget(
-        branch.samples, [&](const Sample& s) { return timeline::step_of_frame(branch, s.frame); }, reached);
-    forget(
-        branch.changes, [](const Change& c) { return c.step; }, reached);
-    // A clock counts until the next one.
-    std::vector<FrameClock> clocks;
-    for (std::size_t i = 0; i < branch.clocks.size(); ++i) {
-        const std::uint64_t from = branch.clocks[i].step;
-        const bool last = i + 1 == branch.clocks.size();
-        const bool needed =
-            i == 0 || last || std::any_of(branch.keyframes.begin(), branch.keyframes.end(), [&](const Keyframe& k) {
-                return k.until >= from && k.step < branch.clocks[i + 1].step;
-            });
-        if (needed)
-            clocks.push_back(branch.clocks[i]);
-    }
-    branch.clocks = std::move(clocks);
-}
-
-double Timeline::reach_s() const {
-    double sum = 0;
-    for (const Branch& branch : branches_)
-        for (const Keyframe& keyframe : branch.keyframes)
-            sum += span_s(branch, keyframe);
-    return sum;
-}
-
-void Timeline::fit(double seconds_per_frame) {
-    if (memory() <= options_.budget)
-        return;
-    const auto most = static_cast<std::size_t>(static_cast<double>(options_.budget) * (1 - slack));
-    const auto frames = [&](double seconds) {
-        const double gap = seconds_per_frame > 0 ? seconds / seconds_per_frame : 1;
-        return static_cast<std::uint64_t>(std::clamp(std::floor(gap), 1.0, 1e6));
-    };
-    // Gaps that fit into the next wider one a whole number of times, or that could not be reached.
-    const std::uint64_t wanted = frames(options_.seek_s), widest = frames(slowest * options_.seek_s);
-    for (auto halvings = std::countr_zero(wanted); memory() > most && halvings >= 0; --halvings)
-        thin(most, wanted >> halvings);
-    if (memory() > most)
-        drop(most, false, options_.least_reach_s);
-    for (std::uint64_t gap = wanted + 1; memory() > most && gap <= widest; gap += 1 + gap / 8)
-        thin(most, gap);
-    for (const bool kept_too : {false, true})
-        if (memory() > most)
-            drop(most, kept_too, 0);
 }
 
 } // namespace clothlab::timeline

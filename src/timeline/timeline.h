@@ -10,24 +10,31 @@
 #include <vector>
 
 #include "timeline/branch.h"
+#include "timeline/step_costs.h"
 
 namespace clothlab::timeline {
 
 struct CacheOptions {
     std::size_t budget = std::size_t{512} << 20; ///< bytes, of all branches together
-    /// What a seek may take, in s. States are stored so close together that it suffices, as far as the frames
-    /// themselves are faster than that.
-    double seek_s = 0.0145;
-    /// Simulated seconds that are worth a slower seek, of up to four times that, before their states are dropped.
-    double least_reach_s = 60;
+    /// What the steps of a seek may take, in s; 2.5 times as long where one frame alone takes longer than that. States
+    /// are stored so close together that it suffices, and dropped rather than further apart.
+    double seek_s = 0.0135;
+    /// Simulated seconds that are worth a slower seek, of a whole frame or up to four times that, before their states
+    /// are dropped.
+    double least_reach_s = 0;
     bool operator==(const CacheOptions&) const = default;
 };
 
 /// The stored state from which a step of a branch's own part is reached; null when it cannot be.
 const Keyframe* keyframe_before(const Branch& branch, std::uint64_t step);
 
-/// Bytes of all that a branch keeps.
+/// Bytes of all that a branch keeps, of a stored state of it, and of all else.
 std::size_t memory(const Branch& branch);
+std::size_t memory(const Keyframe& keyframe);
+std::size_t memory_but_keyframes(const Branch& branch);
+
+/// How much longer a seek may take where one frame alone takes longer than a seek should.
+inline constexpr double slow_frame = 2.5;
 
 class Timeline {
 public:
@@ -93,10 +100,10 @@ public:
     void store(BranchId id, Keyframe keyframe);
     /// The states that a branch's marks and bookmarks need are kept: they go last.
     void refresh_kept(BranchId id);
-    /// Thins out and drops states until the budget holds; `seconds_per_frame` is what a frame costs. First states go so
-    /// that those left are evenly apart, the oldest first, as long as a seek between them takes no longer than it may;
-    /// then the oldest go, each branch's last one excepted, and kept ones only when no others are left.
-    void fit(double seconds_per_frame);
+    /// Thins out and drops states until the budget holds. First states go so that those left are evenly apart, the
+    /// oldest first, as long as a seek between them takes no longer than it may by what the steps there took; then the
+    /// oldest go, each branch's last one excepted, and kept ones only when no others are left.
+    void fit();
 
     const CacheOptions& options() const { return options_; }
     void set_options(const CacheOptions& options) { options_ = options; }
@@ -106,7 +113,16 @@ public:
     double reach_s() const;
 
 private:
-    void thin(std::size_t most, std::uint64_t gap);
+    // How far apart the states of a branch may be.
+    struct Gap {
+        std::uint64_t frames = 1; ///< that it reaches into
+        double seconds = 0;       ///< that its steps take
+    };
+    /// For seeks that take so many times as long as they should.
+    Gap widest_gap(double frame_s, double slower) const;
+    /// What goes from each branch is what leaves gaps no wider than gap_of gives for its steps' costs.
+    template <class GapOf>
+    void thin(std::size_t most, const std::vector<StepCosts>& costs, GapOf gap_of);
     void drop(std::size_t most, bool kept_too, double least_reach_s);
     static void forget_unreachable(Branch& branch);
 

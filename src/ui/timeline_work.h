@@ -66,6 +66,7 @@ struct SetBreakpoints {
 };
 struct SetCacheBudget {
     std::size_t bytes = 0;
+    double least_reach_s = 0; ///< timeline::CacheOptions
 };
 /// Whether the lab looks into the next step (TimelineWork::trace).
 struct InspectStep {

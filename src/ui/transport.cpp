@@ -185,17 +185,22 @@ void cache_popup(Lab& lab, const timeline::Overview& o, const FrameAxis& axis) {
     ImGui::Text("Reaches back %.1f s without a gap; %zu frames are stored.", reach(o, axis), o.keyframes.size());
     TimelineView& view = lab.timeline_view;
     if (ImGui::IsWindowAppearing())
-        view.budget_mb = static_cast<int>(o.budget >> 20);
+        view.budget_mb = static_cast<int>(o.budget >> 20), view.least_reach_s = static_cast<int>(o.least_reach_s);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
     ImGui::InputInt("MB at most", &view.budget_mb, 0);
     tooltip("From 16 MB to 64 GB. Where the states do not fit, older ones are thinned out before they are dropped; "
             "marked and bookmarked ones go last.");
     view.budget_mb = std::clamp(view.budget_mb, 16, 65536);
-    ImGui::SameLine();
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
+    ImGui::InputInt("s at least, even if slow to go to", &view.least_reach_s, 0);
+    tooltip("0: what would be slow to go to is dropped when the memory is used up. Otherwise so many of the newest "
+            "seconds are kept as far as they fit, though going to a moment of theirs may take four times as long, or "
+            "as long as its whole frame.");
+    view.least_reach_s = std::clamp(view.least_reach_s, 0, 86400);
     const auto bytes = static_cast<std::size_t>(view.budget_mb) << 20;
-    ImGui::BeginDisabled(bytes == o.budget);
+    ImGui::BeginDisabled(bytes == o.budget && view.least_reach_s == o.least_reach_s);
     if (ImGui::Button("Set"))
-        ask_timeline(lab, SetCacheBudget{bytes});
+        ask_timeline(lab, SetCacheBudget{bytes, static_cast<double>(view.least_reach_s)});
     ImGui::EndDisabled();
     ImGui::EndPopup();
 }

@@ -216,6 +216,21 @@ TEST_CASE("The cache's memory is changed where it is shown") {
     const auto asked = driver.asked<ui::SetCacheBudget>();
     REQUIRE(asked.size() == 1);
     CHECK(asked[0].bytes == std::size_t{64} << 20);
+    CHECK(asked[0].least_reach_s == 0);
+}
+
+TEST_CASE("How many seconds are kept though they are slow to go to is set beside the memory") {
+    PanelDriver driver;
+    show_made_up_timeline(driver.lab);
+    REQUIRE(driver.act([](ImGuiTestContext* user) {
+        user->ItemClick("###Timeline/###cache");
+        user->ItemInputValue("//$FOCUSED/s at least, even if slow to go to", 60);
+        user->ItemClick("//$FOCUSED/Set");
+    }));
+    const auto asked = driver.asked<ui::SetCacheBudget>();
+    REQUIRE(asked.size() == 1);
+    CHECK(asked[0].bytes == std::size_t{512} << 20);
+    CHECK(asked[0].least_reach_s == 60);
 }
 
 TEST_CASE("Without a timeline the transport is there all the same") {
