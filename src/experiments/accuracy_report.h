@@ -37,7 +37,7 @@ struct Attempt {
 };
 
 /// Errors below so many times the reference's own are not told from it.
-inline constexpr double resolution = 3;
+inline constexpr double resolution = 10;
 
 struct AccuracyRuns {
     std::uint64_t frames = 1;
