@@ -83,7 +83,7 @@ void require_orders(AccuracyConfig config) {
     const Table& table = findings.table;
     for (std::size_t row = 0; row < table.rows.size(); ++row)
         slopes[table.text(row, "method")] = {table.number(row, "order"), table.number(row, "slope")};
-    REQUIRE(slopes.size() == sim::integrators().size());
+    REQUIRE(slopes.size() == (config.integrators.empty() ? sim::integrators().size() : config.integrators.size()));
     for (const auto& [method, numbers] : slopes) {
         INFO(method << ": order " << numbers.first << ", slope " << numbers.second);
         if (numbers.first > 0)
@@ -103,21 +103,22 @@ void require_orders(AccuracyConfig config) {
 
 } // namespace
 
-TEST_CASE("On a smooth scene every method's slope is its order, within 0.1 over a decade of steps") {
+TEST_CASE("On a smooth scene the slopes of explicit, implicit and position-based methods are their orders") {
     if (sanitized) // many steps of what other tests run as well
         return;
     AccuracyConfig config = small_config();
-    config.scene = smooth(3);
-    config.seconds = 0.5;
-    config.integrators = {};
-    config.substeps = {2, 4, 8, 16, 32, 64, 128, 256, 512};
+    config.seconds = 0.3;
+    config.integrators = {
+        sim::IntegratorId::velocity_verlet,  sim::IntegratorId::rk4,  sim::IntegratorId::symplectic_euler,
+        sim::IntegratorId::linearised_euler, sim::IntegratorId::xpbd, sim::IntegratorId::pbd};
+    config.substeps = {4, 8, 16, 32, 64};
     require_orders(config);
 }
 
 TEST_CASE("On the shipped smooth scene every method's slope is its order", "[.][accuracy-slopes]") {
     AccuracyConfig config = small_config();
-    config.scene = smooth(12);
-    config.seconds = 1;
+    config.scene = smooth(10);
+    config.seconds = 0.7;
     config.integrators = {};
     config.substeps = {};
     config.budget = 20;
