@@ -23,7 +23,7 @@ struct Ending {
     sim::Status status = sim::Status::ok;
     Shape shape;
     double energy = 0;               ///< J, total
-    double wall = 0;                 ///< s
+    double seconds = 0;              ///< of processor time
     std::uint64_t steps = 0;         ///< that were taken
     std::uint64_t self_contacts = 0; ///< in all of them
 };

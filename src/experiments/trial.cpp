@@ -11,7 +11,9 @@ namespace clothlab::experiments {
 namespace {
 
 sim::Vec3 mixed(const sim::Vec3& a, const sim::Vec3& b, double share) {
-    const auto mix = [share](double from, double to) { return share == 0 ? from : from + share * (to - from); };
+    const auto mix = [share](double from, double to) {
+        return share == 0 ? from : share == 1 ? to : from + share * (to - from);
+    };
     return {mix(a.x, b.x), mix(a.y, b.y), mix(a.z, b.z)};
 }
 
