@@ -94,7 +94,7 @@ void measure_errors(const AccuracyConfig& config, AccuracyRuns& runs, const Prog
         Attempt& attempt = attempts[i];
         const Ending ending = run_to_end(attempt.description, runs.frames, config.budget, tick);
         attempt.status = ending.status;
-        attempt.step = ending.wall / static_cast<double>(ending.steps);
+        attempt.step = ending.seconds / static_cast<double>(ending.steps);
         attempt.left_out = !ending.finished && ending.status != sim::Status::diverged;
         if (ending.finished)
             attempt.error = errors_between(ending, runs.reference.ending);

@@ -45,7 +45,7 @@ struct AccuracyConfig {
     bool rules = false; ///< also the scene's method with the course's version of one rule at a time
     ErrorQuantity quantity = ErrorQuantity::rms;
     std::vector<double> tolerances; ///< in the quantity's unit, of the sentences; empty: 10, 1, 0.1 and 0.01
-    double budget = 2;  ///< wall s that a run to the end may take in one thread; what takes longer is left out
+    double budget = 2;  ///< s of processor time that a run to the end may take; what takes longer is left out
     int rounds = 3;     ///< of timing; 0: no times, and so no front
     double slot = 0.02; ///< wall s that a run is timed in each round, at least a few steps
     int jobs = 0;       ///< runs at a time while errors are measured, not times; 0: one for each core

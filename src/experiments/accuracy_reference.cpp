@@ -159,7 +159,7 @@ Reference find_reference(const scene::Scene& scene, std::uint64_t frames, int fi
         coarse = errors_between(endings[0], endings[1]);
         fine = errors_between(endings[1], endings[2]);
         const bool converging = fine[q] > small_enough && coarse[q] > still_falling * fine[q];
-        if (!converging || 8 * substeps > std::min(2 * finest, most_substeps) || 2 * endings[2].wall > budget)
+        if (!converging || 8 * substeps > std::min(2 * finest, most_substeps) || 2 * endings[2].seconds > budget)
             break;
         substeps *= 2;
         endings = {std::move(endings[1]), std::move(endings[2]), run(4 * substeps)};

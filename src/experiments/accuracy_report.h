@@ -31,13 +31,13 @@ struct Attempt {
     sim::Description description;
     bool left_out = false; ///< it would have taken longer than the budget
     sim::Status status = sim::Status::ok;
-    double step = 0;             ///< wall s that a step took while errors were measured
+    double step = 0;             ///< s of processor time that a step took while errors were measured
     std::optional<Errors> error; ///< of what did not diverge
     std::vector<Measured> cost;  ///< wall s per simulated s, of AccuracyConfig::threads; empty: not timed
 };
 
 /// Errors below so many times the reference's own are not told from it.
-inline constexpr double resolution = 3;
+inline constexpr double resolution = 10;
 
 struct AccuracyRuns {
     std::uint64_t frames = 1;

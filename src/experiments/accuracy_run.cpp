@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <ctime>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -16,9 +17,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double tick_every = 0.1; // s
+constexpr auto tick_every = std::chrono::milliseconds(100), look_every = std::chrono::milliseconds(1);
 /// What share of the budget has to be used up before the time of the rest is judged by it.
 constexpr double judged_after = 0.1;
+
+/// s of processor time that the calling thread has used: unlike the wall clock it stands still while others compute.
+double processor_time() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 /// J; velocities from the shapes a step before and a step after.
 double kinetic_energy(const Shape& before, const Shape& after, const sim::Description& description) {
@@ -40,24 +48,29 @@ Ending run_to_end(const sim::Description& description, std::uint64_t frames, dou
     const bool keeps_velocity = sim::traits(description.stepping.integrator).velocity;
     Ending ending;
     Shape before_last;
-    double told = 0;
-    const Clock::time_point start = Clock::now();
+    const double start = processor_time();
+    Clock::time_point looked = Clock::now(), told = looked;
     while (ending.steps < steps) {
         if (ending.steps + 1 == steps && !keeps_velocity)
             before_last = shape_of(*simulation);
         ending.self_contacts += simulation->step().self_contacts;
         ++ending.steps;
-        ending.wall = std::chrono::duration<double>(Clock::now() - start).count();
         if (simulation->trouble() && simulation->trouble()->status == sim::Status::diverged)
             break;
-        if (ending.wall - told > tick_every) {
-            told = ending.wall;
+        const Clock::time_point now = Clock::now();
+        if (now - looked < look_every)
+            continue;
+        looked = now;
+        if (now - told > tick_every) {
+            told = now;
             tick(static_cast<double>(ending.steps) / static_cast<double>(steps));
         }
-        const double expected = ending.wall * static_cast<double>(steps) / static_cast<double>(ending.steps);
-        if (ending.wall > judged_after * budget && expected > budget && ending.steps < steps)
+        const double used = processor_time() - start;
+        const double expected = used * static_cast<double>(steps) / static_cast<double>(ending.steps);
+        if (used > judged_after * budget && expected > budget && ending.steps < steps)
             return ending;
     }
+    ending.seconds = processor_time() - start;
     if (simulation->trouble())
         ending.status = simulation->trouble()->status;
     ending.finished = ending.status != sim::Status::diverged;
@@ -127,7 +140,7 @@ void run_tasks(std::size_t n, int jobs, const std::function<void(std::size_t, co
             threads.emplace_back(work);
         std::unique_lock lock(mutex);
         while (working > 0) {
-            changed.wait_for(lock, std::chrono::duration<double>(tick_every));
+            changed.wait_for(lock, tick_every);
             const std::size_t now = done;
             lock.unlock();
             tell(now);

@@ -23,14 +23,14 @@ struct Ending {
     sim::Status status = sim::Status::ok;
     Shape shape;
     double energy = 0;               ///< J, total
-    double wall = 0;                 ///< s
+    double seconds = 0;              ///< of processor time
     std::uint64_t steps = 0;         ///< that were taken
     std::uint64_t self_contacts = 0; ///< in all of them
 };
 
 /// Takes so many frames, at least one. The energy is of velocities at the very end: for methods that keep none, from
 /// the positions a step before and a step after, which is second order. Gives up as soon as it is clear that a run
-/// takes longer than `budget` wall s.
+/// takes longer than `budget` s of processor time.
 Ending run_to_end(const sim::Description& description, std::uint64_t frames, double budget, const Tick& tick);
 
 /// How far an ending is from another, by ErrorQuantity and in its unit: mm, the energy in mJ.

@@ -20,7 +20,7 @@ struct Moments {
 /// `description`: of the coarsest reference.
 Moments moments_of(const sim::Description& description, std::uint64_t frames, const Tick& tick);
 
-/// What is timed, and how long a step takes, roughly, in s.
+/// What is timed, and how long a step takes, roughly, in s of processor time.
 struct Timed {
     sim::Description description;
     int threads = 1;

@@ -71,8 +71,9 @@ void add_left_out(const AccuracyAnalysis& a, std::vector<std::string>& notes) {
                     name_of(line.precision) + " precision with " + substeps;
     }
     if (!list.empty())
-        notes.push_back(formatted("Left out, since a run would take longer than %g s: ", a.config.budget) + list +
-                        " substeps.");
+        notes.push_back(
+            formatted("Left out, since a run would take more than %g s of processor time: ", a.config.budget) + list +
+            " substeps.");
 }
 
 } // namespace

@@ -16,7 +16,7 @@ struct Slope {
 };
 
 /// How far a local slope, from one point to the next, may be off the fitted one for the points to lie on a line.
-inline constexpr double straightness = 0.1;
+inline constexpr double straightness = 0.05;
 /// A line that is flatter is no convergence, but an error that the step has no part in.
 inline constexpr double flattest = 0.5;
 

@@ -120,7 +120,8 @@ void add_accuracy(CLI::App& experiment, const GuiCommands& gui, int& status) {
         ->check(CLI::Range(0, 1000));
     accuracy
         ->add_option("--budget", a.config.budget,
-                     "Wall seconds that one run may take; what would take longer is left out (default: 2)")
+                     "Seconds of processor time that one run to the end may take; what would take longer is left out "
+                     "(default: 2)")
         ->check(CLI::PositiveNumber);
     add_output(*accuracy, a.output);
     accuracy->final_callback([arguments, &gui, &status] { status = run(*arguments, gui); });
