@@ -75,8 +75,7 @@ void LabApp::run() {
     // Paused and untouched, the lab rests: a few frames a second keep its state fresh.
     for (;;) {
         const bool busy = lab_.playing || lab_.flight || pictures_.recording() || timeline_desk_.expects_news() ||
-                          experiment_desk_.expects_news() ||
-                          ImGui::IsAnyItemActive() || dialog_;
+                          experiment_desk_.expects_news() || ImGui::IsAnyItemActive() || dialog_;
         if (!frame(!busy ? 0.05 : idle_ ? 0.004 : 0))
             return;
     }

@@ -8,7 +8,7 @@
 
 #include "app/core/data_folder.h"
 #include "cli/command_line.h"
-#include "experiments/bench.h"
+#include "experiments/bench/bench.h"
 #include "scene/io.h"
 
 namespace clothlab::cli {

@@ -4,11 +4,11 @@
 #include <imgui_stdlib.h>
 #include <thread>
 
-#include "experiments/accuracy.h"
-#include "experiments/bisection.h"
-#include "experiments/needs.h"
-#include "experiments/stability_map.h"
-#include "experiments/sweep.h"
+#include "experiments/accuracy/accuracy.h"
+#include "experiments/needs/needs.h"
+#include "experiments/stability/bisection.h"
+#include "experiments/stability/map.h"
+#include "experiments/sweep/sweep.h"
 #include "scene/number_text.h"
 #include "sim/integrators/integrator.h"
 #include "ui/experiment_rows.h"

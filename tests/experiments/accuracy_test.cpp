@@ -1,4 +1,4 @@
-#include "experiments/accuracy.h"
+#include "experiments/accuracy/accuracy.h"
 
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
@@ -10,9 +10,9 @@
 #include <map>
 #include <set>
 
-#include "experiments/accuracy_reference.h"
-#include "experiments/accuracy_run.h"
-#include "experiments/convergence.h"
+#include "experiments/accuracy/convergence.h"
+#include "experiments/accuracy/reference.h"
+#include "experiments/accuracy/run.h"
 #include "experiments/trial.h"
 #include "scene/io.h"
 #include "support/effort.h"

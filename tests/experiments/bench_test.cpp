@@ -4,8 +4,8 @@
 #include <catch2/catch_test_macros.hpp>
 #include <set>
 
-#include "experiments/bench.h"
-#include "experiments/bench_cases.h"
+#include "experiments/bench/bench.h"
+#include "experiments/bench/cases.h"
 #include "scene/io.h"
 #include "sim/execution.h"
 #include "support/files.h"

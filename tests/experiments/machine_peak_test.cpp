@@ -4,7 +4,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <stdexcept>
 
-#include "experiments/machine_peak.h"
+#include "experiments/bench/machine_peak.h"
 
 using namespace clothlab::experiments;
 

@@ -5,7 +5,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <set>
 
-#include "experiments/needs_alternatives.h"
+#include "experiments/needs/alternatives.h"
 #include "needs_scenes.h"
 
 using namespace clothlab;

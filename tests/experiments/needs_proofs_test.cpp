@@ -3,7 +3,7 @@
 #include <catch2/catch_message.hpp>
 #include <catch2/catch_test_macros.hpp>
 
-#include "experiments/needs_proofs.h"
+#include "experiments/needs/proofs.h"
 #include "needs_scenes.h"
 
 using namespace clothlab;

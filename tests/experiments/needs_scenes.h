@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "experiments/needs.h"
+#include "experiments/needs/needs.h"
 #include "sim/integrators/integrator.h"
 
 namespace clothlab::test {

@@ -5,7 +5,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
 
-#include "experiments/needs_chaos.h"
+#include "experiments/needs/chaos.h"
 #include "needs_scenes.h"
 #include "scene/io.h"
 #include "support/files.h"

@@ -1,4 +1,4 @@
-#include "experiments/physical_model.h"
+#include "experiments/accuracy/physical_model.h"
 
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>

@@ -3,7 +3,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
 
-#include "experiments/stability_axis.h"
+#include "experiments/stability/axis.h"
 #include "experiments/trial.h"
 #include "scene/io.h"
 

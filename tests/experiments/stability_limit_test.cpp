@@ -3,10 +3,10 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
 
-#include "experiments/bisection.h"
-#include "experiments/fastest_mode.h"
-#include "experiments/stability_prediction.h"
-#include "experiments/start_displacement.h"
+#include "experiments/stability/bisection.h"
+#include "experiments/stability/fastest_mode.h"
+#include "experiments/stability/prediction.h"
+#include "experiments/stability/start_displacement.h"
 #include "experiments/trial.h"
 #include "scene/io.h"
 #include "sim/integrators/integrator.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "experiments/stability_map.h"
+#include "experiments/stability/map.h"
 #include "experiments/trial.h"
 
 using namespace clothlab;

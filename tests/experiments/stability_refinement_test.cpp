@@ -2,7 +2,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <set>
 
-#include "experiments/refinement.h"
+#include "experiments/stability/refinement.h"
 
 using namespace clothlab::experiments;
 

@@ -1,7 +1,7 @@
 // What --vary means: ranges, lists, and what is wrong with them.
 #include <catch2/catch_test_macros.hpp>
 
-#include "experiments/sweep_axis.h"
+#include "experiments/sweep/axis.h"
 #include "scene/error.h"
 
 using namespace clothlab;

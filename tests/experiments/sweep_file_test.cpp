@@ -1,7 +1,7 @@
 // A sweep's file as its own journal, and shards that become one file.
 #include <catch2/catch_test_macros.hpp>
 
-#include "experiments/sweep_file.h"
+#include "experiments/sweep/file.h"
 #include "scene/error.h"
 
 using namespace clothlab;

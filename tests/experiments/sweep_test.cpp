@@ -1,8 +1,8 @@
 // Sweeps in this process: their cells, their rows, their chart.
 #include <catch2/catch_test_macros.hpp>
 
-#include "experiments/sweep.h"
-#include "experiments/sweep_file.h"
+#include "experiments/sweep/file.h"
+#include "experiments/sweep/sweep.h"
 #include "experiments/trial.h"
 #include "scene/io.h"
 

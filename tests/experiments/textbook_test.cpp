@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "experiments/textbook.h"
+#include "experiments/bench/textbook.h"
 #include "scene/io.h"
 #include "sim/simulation.h"
 #include "support/files.h"

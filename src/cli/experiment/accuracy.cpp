@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cli/experiment/experiment.h"
-#include "experiments/accuracy.h"
+#include "experiments/accuracy/accuracy.h"
 #include "scene/error.h"
 
 namespace clothlab::cli {

@@ -1,5 +1,5 @@
 // `clothlab experiment needs`.
-#include "experiments/needs.h"
+#include "experiments/needs/needs.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "cli/experiment/experiment.h"
-#include "experiments/bisection.h"
 #include "experiments/run_parallel.h"
-#include "experiments/stability_map.h"
+#include "experiments/stability/bisection.h"
+#include "experiments/stability/map.h"
 #include "scene/io.h"
 
 namespace clothlab::cli {

@@ -14,7 +14,7 @@
 #include "cli/experiment/sweep_journal.h"
 #include "cli/experiment/sweep_pictures.h"
 #include "cli/experiment/sweep_workers.h"
-#include "experiments/sweep_file.h"
+#include "experiments/sweep/file.h"
 #include "scene/io.h"
 #include "scene/whole_file.h"
 

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "experiments/sweep_file.h"
+#include "experiments/sweep/file.h"
 #include "scene/io.h"
 #include "scene/whole_file.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/sweep.h"
+#include "experiments/sweep/sweep.h"
 
 namespace clothlab::cli {
 

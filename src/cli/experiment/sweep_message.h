@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiments/sweep.h"
+#include "experiments/sweep/sweep.h"
 
 namespace clothlab::cli {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/command_line.h"
-#include "experiments/sweep.h"
+#include "experiments/sweep/sweep.h"
 
 namespace clothlab::cli {
 

@@ -11,7 +11,7 @@
 
 #include "cli/experiment/sweep_message.h"
 #include "cli/experiment/sweep_workers.h"
-#include "experiments/sweep_file.h"
+#include "experiments/sweep/file.h"
 #include "scene/io.h"
 
 namespace clothlab::cli {

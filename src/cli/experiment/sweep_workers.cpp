@@ -20,7 +20,7 @@
 #include <unistd.h>
 
 #include "cli/experiment/sweep_message.h"
-#include "experiments/sweep_file.h"
+#include "experiments/sweep/file.h"
 
 extern char** environ; // NOLINT: POSIX's name
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/sweep.h"
+#include "experiments/sweep/sweep.h"
 
 namespace clothlab::cli {
 

@@ -1,0 +1,104 @@
+#include <algorithm>
+
+#include "experiments/bench/bench.h"
+
+namespace clothlab::experiments {
+namespace {
+
+constexpr auto single_precision = sim::Precision::single_precision;
+constexpr auto double_precision = sim::Precision::double_precision;
+
+const char* name_of(sim::Precision precision) {
+    return precision == single_precision ? "single" : "double";
+}
+
+std::string on_threads(int threads) {
+    return threads == 1 ? "1 thread" : std::to_string(threads) + " threads";
+}
+
+class Summary {
+public:
+    explicit Summary(const BenchTable& table) : table_(table) {}
+
+    const BenchGroup* group(const std::string& name, int n) const {
+        for (const BenchGroup& g : table_.groups)
+            if (g.name == name && g.n == n)
+                return &g;
+        return nullptr;
+    }
+    /// The run that a user gets who asks for nothing.
+    const BenchRow* row(const std::string& name, int n, sim::Precision precision, int threads) const {
+        const BenchGroup* g = group(name, n);
+        return g ? g->find(table_.best_kernel, precision, threads) : nullptr;
+    }
+    void add(BenchFigure figure) { figures_.push_back(std::move(figure)); }
+
+    void full_step(const std::string& name, sim::Precision precision) {
+        if (const BenchRow* r = row(name, 50, precision, 1))
+            add({.name = "full step: textbook to kernel, " + name + " 50 x 50, " + name_of(precision) + ", 1 thread",
+                 .value = r->speedup,
+                 .unit = "x",
+                 .at_least = precision == single_precision ? 10 : 6,
+                 .aim = precision == single_precision ? std::optional(20.0) : std::nullopt});
+    }
+    void forces(int threads) {
+        for (const char* name : {"pinned", "springs"}) {
+            const BenchRow* r = row(name, 50, single_precision, threads);
+            if (!r)
+                continue;
+            const std::string which = std::string(", ") + name + " 50 x 50, single, " + on_threads(threads);
+            add({.name = "forces + Verlet: textbook to kernel" + which, .value = r->forces_speedup, .unit = "x"});
+            if (r->forces_to_full_step)
+                add({.name = "textbook's full step to kernel's forces + Verlet" + which,
+                     .value = *r->forces_to_full_step,
+                     .unit = "x"});
+        }
+    }
+    void steps(const std::string& name, int n, int threads, bool real_time) {
+        if (const BenchRow* r = row(name, n, single_precision, threads))
+            add({.name =
+                     name + " " + std::to_string(n) + " x " + std::to_string(n) + ", single, " + on_threads(threads),
+                 .value = r->steps_per_s(),
+                 .unit = "steps/s",
+                 .at_least = real_time ? std::optional(group(name, n)->steps_per_second) : std::nullopt});
+    }
+    void growth(const std::string& name, sim::Precision precision, int threads) {
+        const BenchRow *small = row(name, 50, precision, threads), *large = row(name, 512, precision, threads);
+        if (small && large)
+            add({.name = "time per point: 512 x 512 to 50 x 50, " + name + ", " + name_of(precision) + ", " +
+                         on_threads(threads),
+                 .value = large->ns_per_point / small->ns_per_point,
+                 .unit = "x",
+                 .at_most = 1.5});
+    }
+    std::vector<BenchFigure> take() { return std::move(figures_); }
+
+private:
+    const BenchTable& table_;
+    std::vector<BenchFigure> figures_;
+};
+
+} // namespace
+
+std::vector<BenchFigure> summarise(const BenchTable& table) {
+    std::vector<int> threads;
+    for (const ThreadPeak& peak : table.machine.by_threads)
+        threads.push_back(peak.threads);
+    Summary summary(table);
+    for (const char* name : {"falling", "pinned"})
+        for (const sim::Precision precision : {single_precision, double_precision})
+            summary.full_step(name, precision);
+    for (const int t : threads)
+        summary.forces(t);
+    for (const int t : threads)
+        summary.steps("falling-thick", 100, t, true);
+    for (const char* name : {"falling", "pinned", "springs"})
+        for (const int t : threads)
+            summary.steps(name, 512, t, false);
+    for (const char* name : {"falling", "pinned", "springs"})
+        for (const int t : threads)
+            summary.growth(name, single_precision, t);
+    return summary.take();
+}
+
+} // namespace clothlab::experiments
