@@ -34,7 +34,7 @@ std::string text_of(double value) {
 
 bool run_button(bool enabled) {
     ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(ICON_FA_PLAY "  Run the experiment");
+    const bool pressed = ImGui::Button(ICON_FA_PLAY "  Run the experiment###run");
     ImGui::EndDisabled();
     tooltip(
         "With the scene as it is now, from its start. The lab goes on meanwhile; pause it where times are measured.");

@@ -37,7 +37,7 @@ void draw_job(Lab& lab) {
         std::snprintf(text, sizeof text, "%.0f s", job.elapsed_s);
     ImGui::ProgressBar(static_cast<float>(job.share), {-ImGui::GetFontSize() * 6, 0}, text);
     ImGui::SameLine();
-    if (ImGui::Button(ICON_FA_XMARK "  Cancel"))
+    if (ImGui::Button(ICON_FA_XMARK "  Cancel###cancel"))
         lab.ask(ExperimentRequest(CancelExperiment{}));
 }
 

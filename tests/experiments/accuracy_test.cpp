@@ -127,7 +127,7 @@ TEST_CASE("On the shipped smooth scene every method's slope is its order", "[.][
 
 TEST_CASE("The reference is zero away from itself, and its settings make it again to the last bit") {
     const scene::Scene scene = smooth(5);
-    const Reference reference = find_reference(scene, 18, 8, Quantity::rms, 1000, no_tick);
+    const Reference reference = find_reference(scene, 18, 8, ErrorQuantity::rms, 1000, no_tick);
     const Ending again = run_to_end(with(scene, reference.settings).simulation, 18, 1000, no_tick);
     CHECK(errors_between(again, reference.ending) == Errors{});
     CHECK(again.energy == reference.ending.energy);
@@ -141,7 +141,7 @@ TEST_CASE("The reference's estimate of its own error is what a much finer run fi
     scene::Scene scene = smooth(4);
     scene.simulation.cloth.pinned.clear();
     scene.simulation.colliders = {sim::Sphere{{0.5, -0.3, 0.1}, 0.25, 0.3}};
-    const Reference reference = find_reference(scene, 18, 1, Quantity::rms, 1000, no_tick);
+    const Reference reference = find_reference(scene, 18, 1, ErrorQuantity::rms, 1000, no_tick);
     Settings finer = reference.settings;
     finer.push_back("simulation.substeps=" + std::to_string(64 * reference.substeps[2]));
     const Ending exact = run_to_end(with(scene, finer).simulation, 18, 1000, no_tick);
@@ -202,7 +202,7 @@ TEST_CASE("The energy of a method without velocities is that of the very end, to
     AccuracyConfig config = small_config();
     config.integrators = {sim::IntegratorId::course_verlet};
     config.substeps = {8, 16};
-    config.quantity = Quantity::energy;
+    config.quantity = ErrorQuantity::energy;
     const Table table = run_accuracy(config, {}).table;
     CHECK_THAT(std::log2(table.number(0, "energy_error_mJ") / table.number(1, "energy_error_mJ")), WithinAbs(2, 0.1));
 }

@@ -12,7 +12,7 @@ namespace clothlab::experiments {
 
 struct BisectionConfig {
     scene::Scene scene;
-    std::string key = "cloth.ks";   ///< as quantity_of reads it (stability_axis.h)
+    std::string key = "cloth.ks";   ///< as quantity_of reads it (axis.h)
     std::optional<double> from, to; ///< where to look; what is missing is found from the prediction
     /// Of the last interval, as a share of its values. Whole numbers are found to 1.
     double precision = 1e-3;
