@@ -239,14 +239,15 @@ void row_tooltip(const experiments::Table& table, std::size_t row) {
 } // namespace
 
 ChartMouse draw_chart(const Chart& chart, const experiments::Table& table, const char* id, ImVec2 size, bool fit,
-                      std::optional<std::size_t> marked) {
+                      bool titled, std::optional<std::size_t> marked) {
     ChartMouse result;
     ImPlot::PushStyleColor(ImPlotCol_PlotBg, ImVec4(0.085f, 0.09f, 0.10f, 1));
     ImPlot::PushStyleColor(ImPlotCol_AxisGrid, ImVec4(1, 1, 1, 0.12f));
     ImPlot::PushStyleVar(ImPlotStyleVar_LegendSpacing, ImVec2(5, 1));
     const bool legend = chart.series.size() + chart.cell_kinds.size() > 1;
-    if (ImPlot::BeginPlot((chart.title + "###" + id).c_str(), size,
-                          int{ImPlotFlags_NoMouseText} | (legend ? 0 : int{ImPlotFlags_NoLegend}))) {
+    const ImPlotFlags flags = int{ImPlotFlags_NoMouseText} | (legend ? 0 : int{ImPlotFlags_NoLegend}) |
+                              (titled ? 0 : int{ImPlotFlags_NoTitle});
+    if (ImPlot::BeginPlot((chart.title + "###" + id).c_str(), size, flags)) {
         set_up_axis(ImAxis_X1, chart.x);
         set_up_axis(ImAxis_Y1, chart.y);
         const ChartLimits limits = limits_of(chart);

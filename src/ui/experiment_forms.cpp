@@ -32,9 +32,10 @@ std::string text_of(double value) {
     return text;
 }
 
+/// Above the settings, where it is seen however low the panel is.
 bool run_button(bool enabled) {
     ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(ICON_FA_PLAY "  Run the experiment###run");
+    const bool pressed = ImGui::Button(ICON_FA_PLAY "  Run the experiment###run", {-ImGui::GetFontSize() * 0.5f, 0});
     ImGui::EndDisabled();
     tooltip(
         "With the scene as it is now, from its start. The lab goes on meanwhile; pause it where times are measured.");
@@ -115,6 +116,7 @@ RunExperiment accuracy_request(const Lab& lab) {
 
 bool accuracy_form(Lab& lab, bool enabled) {
     AccuracyForm& f = lab.experiments.forms.accuracy;
+    const bool run = run_button(enabled);
     form_number("Compare at (s)", "The simulated time at which the shapes are compared", f.seconds, 1e-3, "%.4g");
     form_choice("Error of", "What the chart is of; the table has all", f.quantity,
                 names_of(experiments::error_quantities()));
@@ -129,7 +131,7 @@ bool accuracy_form(Lab& lab, bool enabled) {
     ImGui::SameLine();
     ImGui::Checkbox("rules", &f.rules);
     tooltip("Also the scene's own method with the course's version of one rule at a time");
-    return run_button(enabled);
+    return run;
 }
 
 // --- stability -------------------------------------------------------------------------------------------------------
@@ -157,6 +159,7 @@ RunExperiment stability_request(const Lab& lab) {
 
 bool stability_form(Lab& lab, bool enabled) {
     StabilityForm& f = lab.experiments.forms.stability;
+    const bool run = run_button(enabled);
     int kind = f.bisect ? 1 : 0;
     form_choice("Find", "A map over two parameters, or the limit along one to 0.1 %", kind, {"a map", "the limit"});
     f.bisect = kind == 1;
@@ -173,7 +176,7 @@ bool stability_form(Lab& lab, bool enabled) {
                     {"16 x 16", "32 x 32", "64 x 64"});
         f.resolution = 16 << resolution;
     }
-    return run_button(enabled);
+    return run;
 }
 
 // --- needs -----------------------------------------------------------------------------------------------------------
@@ -199,6 +202,7 @@ RunExperiment needs_request(const Lab& lab) {
 
 bool needs_form(Lab& lab, bool enabled) {
     NeedsForm& f = lab.experiments.forms.needs;
+    const bool run = run_button(enabled);
     form_number("Simulate (s)", "The simulated time that counts", f.seconds, 1e-3, "%.4g");
     form_choice("What counts",
                 "What may change by no more than the tolerance: shape (rms, largest), drape height, sag, "
@@ -208,7 +212,7 @@ bool needs_form(Lab& lab, bool enabled) {
     form_number(("Tolerance (" + unit + ")").c_str(), "By how much it may change", f.tolerance, 1e-9, "%.4g");
     ImGui::Checkbox("compare at the end only", &f.at_end);
     ImGui::Checkbox("two threads", &f.second_thread);
-    return run_button(enabled);
+    return run;
 }
 
 // --- sweep -----------------------------------------------------------------------------------------------------------
@@ -236,6 +240,7 @@ RunExperiment sweep_request(const Lab& lab) {
 
 bool sweep_form(Lab& lab, bool enabled) {
     SweepForm& f = lab.experiments.forms.sweep;
+    const bool run = run_button(enabled);
     form_axis(lab, "Vary", f.first, false, true);
     ImGui::Checkbox("and", &f.two);
     tooltip("Vary a second parameter as well: every combination is run");
@@ -252,7 +257,7 @@ bool sweep_form(Lab& lab, bool enabled) {
         }
         ImGui::EndCombo();
     }
-    return run_button(enabled);
+    return run;
 }
 
 } // namespace

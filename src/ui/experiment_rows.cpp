@@ -62,7 +62,7 @@ void form_label(const char* label, const char* help) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(label);
     tooltip(help);
-    ImGui::SameLine(ImGui::GetFontSize() * 8);
+    ImGui::SameLine(ImGui::GetFontSize() * 8.6f);
     ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 0.5f);
 }
 

@@ -86,7 +86,7 @@ void choose_view(Lab& lab, std::size_t kind, const experiments::Findings& findin
     const auto name = [&](int i) {
         return i == charts ? std::string("Table") : findings.charts[static_cast<std::size_t>(i)].title;
     };
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16);
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 6);
     if (ImGui::BeginCombo("##view", name(chosen).c_str())) {
         for (int i = 0; i <= charts; ++i)
             if (ImGui::Selectable(name(i).c_str(), i == chosen))
@@ -100,8 +100,9 @@ void choose_view(Lab& lab, std::size_t kind, const experiments::Findings& findin
         lab.experiments.files.kind = static_cast<ExperimentKind>(kind);
     }
     ImGui::SameLine();
-    if (icon_button(ICON_FA_COPY, "##command",
-                    "Copy the command that makes the same, of the scene saved as scene.json"))
+    const std::string help = std::string("Copy the command that makes the same, once the scene is saved as ") +
+                             experiment_names[kind] + "-scene.json";
+    if (icon_button(ICON_FA_COPY, "##command", help.c_str()))
         ImGui::SetClipboardText(lab.experiments.found[kind]->command.c_str());
 }
 
@@ -117,12 +118,9 @@ void draw_findings(Lab& lab, ExperimentKind which) {
     const experiments::Findings& findings = found->findings;
     choose_view(lab, kind, findings);
     if (!lab.experiments.showing.empty()) {
-        ImGui::SameLine();
         ImGui::TextColored(colour::warning, "%s", lab.experiments.showing.c_str());
     } else if (!(found->scene.simulation == lab.scene.simulation) && !lab.experiments.marked[kind]) {
-        ImGui::SameLine();
-        ImGui::TextColored(colour::faint, "of other parameters");
-        tooltip("The scene has been changed since this experiment was made: " + findings.title);
+        ImGui::TextColored(colour::faint, "Of another scene, or of other parameters: %s", findings.title.c_str());
     }
     ImGui::PushTextWrapPos(0);
     if (!findings.sentences.empty())
@@ -142,7 +140,7 @@ void draw_findings(Lab& lab, ExperimentKind which) {
     ImGui::PushID(found.get());
     const ChartMouse mouse =
         draw_chart(findings.charts[chart], findings.table, ("chart" + std::to_string(chart)).c_str(),
-                   ImGui::GetContentRegionAvail(), false, lab.experiments.marked[kind]);
+                   ImGui::GetContentRegionAvail(), false, false, lab.experiments.marked[kind]);
     ImGui::PopID();
     if (mouse.clicked)
         show_trial(lab, which, *mouse.clicked);

@@ -370,3 +370,19 @@ TEST_CASE("A sweep as one JSON object has a row for each cell", "[program]") {
     REQUIRE(json["rows"][1]["cloth.ks"] == 200);
     REQUIRE(json["rows"][1]["settings"] == nlohmann::json::array({"cloth.ks=200"}));
 }
+
+TEST_CASE("experiment --report writes a page with the table, the scene and the command that was typed", "[program]") {
+    const TemporaryFolder folder;
+    const std::string report = (folder / "a report").string();
+    const Finished finished = clothlab::test::clothlab(
+        {"experiment", "sweep", "two-pins", "--set", "cloth.num_width_points=4", "--set", "cloth.num_height_points=4",
+         "--set", "cloth.pinned=[[0, 0]]", "--vary", "cloth.ks=500,5000", "--frames", "2", "--report", report});
+    INFO(finished.err);
+    REQUIRE(finished.status == 0);
+    const std::string page = read_file(folder / "a report/report.html");
+    CHECK(page.find("'cloth.pinned=[[0, 0]]' --vary cloth.ks=500,5000 --frames 2") != std::string::npos);
+    CHECK(page.find("<td>cloth.num_width_points</td>") != std::string::npos);
+    CHECK(read_file(folder / "a report/findings.csv").starts_with("cell,cloth.ks,status,"));
+    CHECK(clothlab::test::clothlab({"validate", report + "/scene.json"}).status == 0);
+    CHECK(read_file(folder / "a report/report.md").starts_with("# Sweep of two-pins\n"));
+}

@@ -235,7 +235,7 @@ TEST_CASE("A pen that is put down elsewhere than it was does not turn the camera
 }
 
 TEST_CASE("A scene is opened from the list") {
-    LabDriver driver;
+    LabDriver driver("sphere-medium", 1280, 1000); // high enough for all of the list
     REQUIRE(driver.act([&](ImGuiTestContext* user) { user->ItemClick("###Scenes/**/Two pins"); }));
     CHECK(driver.lab().file == app::scene_path("two-pins"));
     CHECK(driver.lab().scene.simulation.cloth.pinned.size() == 2);

@@ -68,7 +68,7 @@ render::Image chart_picture(const experiments::Chart& chart, int width, int heig
         ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
         ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
         ImGui::Begin("chart", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
-        ui::draw_chart(chart, {}, "chart", ImGui::GetContentRegionAvail(), true);
+        ui::draw_chart(chart, {}, "chart", ImGui::GetContentRegionAvail(), true, true);
         ImGui::End();
         ImGui::PopStyleVar(2);
         ImGui::Render();

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/progress_bar.h"
-#include "experiments/report.h"
 #include "scene/io.h"
 #include "scene/whole_file.h"
 
@@ -51,9 +50,9 @@ void print(const Findings& findings) {
 }
 
 /// report.html, report.md and what they show.
-void write_report(const Findings& findings, const scene::Scene& scene, const std::string& folder,
+void write_report(const Findings& findings, const scene::Scene& scene, const FindingsOutput& output,
                   const GuiCommands& gui, int width, int height) {
-    const std::filesystem::path path(folder);
+    const std::filesystem::path path(output.report);
     const std::string name = "findings";
     experiments::ReportSection section = section_of(findings, name, gui.command);
     if (gui.draw_chart)
@@ -61,6 +60,9 @@ void write_report(const Findings& findings, const scene::Scene& scene, const std
             gui.draw_chart(findings.charts[i], (path / section.pictures[i].file).string(), width, height);
     else
         section.pictures.clear();
+    if (output.draw_for_report)
+        for (experiments::ReportPicture& picture : output.draw_for_report(path))
+            section.pictures.push_back(std::move(picture));
     scene::write_text_file(to_csv(findings.table), path / section.table_file);
     scene::save_scene(scene, path / "scene.json");
     section.notes.push_back("Made by " + experiments::program_version() + ".");
@@ -122,7 +124,7 @@ int conduct(const std::function<Findings(const experiments::Progress&)>& experim
         for (std::size_t i = 0; i < findings.charts.size(); ++i)
             gui.draw_chart(findings.charts[i], experiments::chart_file(output.png, i), width, height);
     if (!output.report.empty())
-        write_report(findings, scene, output.report, gui, width, height);
+        write_report(findings, scene, output, gui, width, height);
     return 0;
 }
 

@@ -1,11 +1,14 @@
 // `clothlab experiment ...`: what its subcommands share. Each has a file of its own beside this one.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "cli/command_line.h"
 #include "experiments/findings.h"
+#include "experiments/report.h"
 
 namespace CLI {
 class App;
@@ -19,7 +22,9 @@ struct FindingsOutput {
     std::string png;               ///< the chart; further ones get -2, -3 ... before the ending
     std::string size = "1200x800"; ///< of the pictures, in px
     std::string report;            ///< folder for a write-up; empty: none
-    bool json = false;             ///< one object on standard output instead of text
+    /// Draws pictures for the write-up into its folder; none where it is empty.
+    std::function<std::vector<experiments::ReportPicture>(const std::filesystem::path& folder)> draw_for_report = {};
+    bool json = false; ///< one object on standard output instead of text
 };
 
 void add_output(CLI::App& app, FindingsOutput& output);

@@ -119,18 +119,30 @@ public:
                                    sweep_.config().scene, output, gui_);
         if (!failed_.empty())
             return complain();
-        if (!arguments_.pictures.empty()) {
-            SceneGrid grid = sweep_pictures(sweep_, rows());
-            grid.file = arguments_.pictures;
-            grid.jobs = arguments_.jobs;
-            read_size(arguments_.picture_size, grid.width, grid.height);
-            gui_.draw_grid(grid);
-        }
+        if (!arguments_.pictures.empty())
+            draw_pictures(arguments_.pictures);
         return status;
     }
 
 private:
     const experiments::SweepRows& rows() const { return journal_ ? journal_->rows() : rows_; }
+
+    std::vector<experiments::ReportPicture> pictures_for_report(const std::filesystem::path& folder) const {
+        int width = 0, height = 0;
+        read_size(arguments_.picture_size, width, height);
+        if (!gui_.draw_grid || rows().size() < sweep_.cells() || !objection_to_grid(sweep_, width, height).empty())
+            return {};
+        draw_pictures((folder / "pictures.png").string());
+        return {{"pictures.png", "The last frame of every cell"}};
+    }
+
+    void draw_pictures(const std::string& file) const {
+        SceneGrid grid = sweep_pictures(sweep_, rows());
+        grid.file = file;
+        grid.jobs = arguments_.jobs;
+        read_size(arguments_.picture_size, grid.width, grid.height);
+        gui_.draw_grid(grid);
+    }
 
     void check_pictures() const {
         int width = 0, height = 0;
@@ -141,7 +153,8 @@ private:
             throw scene::SceneError("--pictures: this clothlab was built without its GUI and cannot draw");
         if (!arguments_.shard.empty())
             throw scene::SceneError("--pictures: a shard has only some of the pictures; leave out --shard");
-        check_grid(sweep_, width, height);
+        if (const std::string why = objection_to_grid(sweep_, width, height); !why.empty())
+            throw scene::SceneError("--pictures: " + why);
         std::optional<scene::Look> checked; // most sweeps have one
         for (std::size_t cell = 0; cell < sweep_.cells(); ++cell)
             if (const scene::Scene scene = sweep_.scene(cell); scene.look != checked) {

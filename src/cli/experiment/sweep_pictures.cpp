@@ -2,8 +2,6 @@
 
 #include <cstdio>
 
-#include "scene/error.h"
-
 namespace clothlab::cli {
 namespace {
 
@@ -24,14 +22,14 @@ std::string caption_of(const experiments::Sweep& sweep, const experiments::Table
 
 } // namespace
 
-void check_grid(const experiments::Sweep& sweep, int width, int height) {
+std::string objection_to_grid(const experiments::Sweep& sweep, int width, int height) {
     if (sweep.config().axes.size() > 2)
-        throw scene::SceneError("--pictures: a grid has two directions; vary one or two parameters");
+        return "a grid has two directions; vary one or two parameters";
     const std::size_t columns = columns_of(sweep), rows = sweep.cells() / columns;
     if (static_cast<double>(columns) * width > longest || static_cast<double>(rows) * height > longest)
-        throw scene::SceneError("--pictures: " + std::to_string(columns) + " x " + std::to_string(rows) +
-                                " pictures of " + std::to_string(width) + " x " + std::to_string(height) +
-                                " px are too many for one; name a smaller --picture-size");
+        return std::to_string(columns) + " x " + std::to_string(rows) + " pictures of " + std::to_string(width) +
+               " x " + std::to_string(height) + " px are too many for one; name a smaller --picture-size";
+    return "";
 }
 
 SceneGrid sweep_pictures(const experiments::Sweep& sweep, const experiments::SweepRows& rows) {

@@ -1,14 +1,16 @@
 // A sweep's cells as a grid of pictures.
 #pragma once
 
+#include <string>
+
 #include "cli/command_line.h"
 #include "experiments/sweep/sweep.h"
 
 namespace clothlab::cli {
 
-/// Throws scene::SceneError for a sweep that is no grid of pictures of a size in px: with more than two varied
-/// parameters, or too large to be one picture.
-void check_grid(const experiments::Sweep& sweep, int width, int height);
+/// Why a sweep is no grid of pictures of a size in px: it has more than two varied parameters, or would be too large
+/// for one picture. Empty where it is.
+std::string objection_to_grid(const experiments::Sweep& sweep, int width, int height);
 
 /// The grid of a sweep with all its rows: the first parameter from the left to the right, the second downwards, and
 /// below each picture how its run ended. Its file, size and jobs are left to be set.

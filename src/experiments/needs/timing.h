@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "experiments/bench/bench.h"
+#include "experiments/measured.h"
 #include "experiments/needs/measure.h"
 
 namespace clothlab::experiments::needs {
@@ -15,7 +15,8 @@ using Cost = std::function<double(const sim::Description&)>;
 
 struct Turns {
     int rounds = 3;
-    double least_s = 0.03; ///< of a turn: a model that takes less runs several times in each
+    /// Of a turn, with setting up: a model that takes less runs several times in each.
+    double least_s = 0.03;
 };
 
 /// Runs the models by turns, A B C ... A B C, and returns what each costs in s of wall time per simulated s: of the
