@@ -63,6 +63,7 @@ Findings accuracy_findings(const AccuracyConfig& config, const AccuracyRuns& run
     findings.title = "Accuracy against speed: " + config.scene_name;
     fill_table(analysis, findings);
     findings.reference = runs.reference.settings;
+    findings.seconds = static_cast<double>(runs.frames) / config.scene.simulation.stepping.frames_per_second;
     if (analysis.timed())
         findings.charts.push_back(cost_chart(analysis));
     findings.charts.push_back(step_chart(analysis));

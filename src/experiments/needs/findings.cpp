@@ -277,6 +277,7 @@ std::vector<std::string> notes_of(const Config& config, const Found& found) {
 
 Findings findings_of(const Config& config, const Found& found) {
     Findings findings;
+    findings.seconds = found.course.seconds;
     findings.title = "What " + config.source + " needs over " + number(found.course.seconds, 6) + " s, within " +
                      amount(config, config.tolerance) + " (" + what_counts(config) + ")";
     const Stages first = fill_table(config, found, findings);

@@ -167,6 +167,8 @@ std::vector<Value> Sweep::run(std::size_t cell, const std::function<bool(double 
 Findings Sweep::findings(const SweepRows& rows) const {
     Findings findings;
     findings.title = "Sweep of " + config_.name;
+    const sim::Description& own = config_.scene.simulation;
+    findings.seconds = static_cast<double>(frames_of(config_.length, own)) / own.stepping.frames_per_second;
     findings.table.columns = columns_;
     std::vector<std::size_t> cells;
     for (const auto& [cell, row] : rows) {
