@@ -46,6 +46,7 @@ void ExperimentDesk::carry_out(const ui::RunExperiment& r) {
     if (!job_.start(r.work))
         return say(true, "Only one experiment at a time: the one under way has to end or be cancelled first.");
     kind_ = r.kind;
+    lab_.experiments.refused[static_cast<std::size_t>(kind_)].clear();
     of_.scene = lab_.scene;
     of_.command = r.command;
 }
@@ -93,10 +94,8 @@ void ExperimentDesk::take_results() {
             ui::FoundOut{std::move(*result->findings), std::move(of_.scene), std::move(of_.command)});
         lab_.experiments.marked[kind].reset();
         lab_.experiments.chart[kind] = 0;
-    } else if (!result->error.empty()) {
-        say(true,
-            std::string("Experiment ") + ui::experiment_names[static_cast<std::size_t>(kind_)] + ": " + result->error);
     }
+    lab_.experiments.refused[static_cast<std::size_t>(kind_)] = result->error;
 }
 
 void ExperimentDesk::carry_out(const ui::ShowTrial& r) {

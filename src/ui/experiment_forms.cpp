@@ -43,11 +43,11 @@ bool run_button(bool enabled) {
 }
 
 template <class Infos>
-std::vector<std::string> names_of(const Infos& infos) {
-    std::vector<std::string> names;
+std::vector<std::string> titles_of(const Infos& infos) {
+    std::vector<std::string> titles;
     for (const auto& info : infos)
-        names.emplace_back(info.name);
-    return names;
+        titles.emplace_back(info.title);
+    return titles;
 }
 
 // --- accuracy --------------------------------------------------------------------------------------------------------
@@ -119,7 +119,7 @@ bool accuracy_form(Lab& lab, bool enabled) {
     const bool run = run_button(enabled);
     form_number("Compare at (s)", "The simulated time at which the shapes are compared", f.seconds, 1e-3, "%.4g");
     form_choice("Error of", "What the chart is of; the table has all", f.quantity,
-                names_of(experiments::error_quantities()));
+                titles_of(experiments::error_quantities()));
     method_choice(f.methods);
     form_whole("Substeps from", "The fewest steps per frame", f.first_substeps, 1, 100000);
     form_whole("Substeps to", "The most steps per frame", f.last_substeps, 2, 100000);
@@ -207,7 +207,7 @@ bool needs_form(Lab& lab, bool enabled) {
     form_choice("What counts",
                 "What may change by no more than the tolerance: shape (rms, largest), drape height, sag, "
                 "time of the first contact, or energy",
-                f.quantity, names_of(experiments::needs::quantities()));
+                f.quantity, titles_of(experiments::needs::quantities()));
     const std::string unit(experiments::needs::quantities()[static_cast<std::size_t>(f.quantity)].unit);
     form_number(("Tolerance (" + unit + ")").c_str(), "By how much it may change", f.tolerance, 1e-9, "%.4g");
     ImGui::Checkbox("compare at the end only", &f.at_end);

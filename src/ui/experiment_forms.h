@@ -36,7 +36,7 @@ struct StabilityForm {
 };
 
 struct NeedsForm {
-    double seconds = 1, tolerance = 1;
+    double seconds = 0.5, tolerance = 1;
     int quantity = 0;
     bool at_end = false, second_thread = false;
 };

@@ -57,6 +57,7 @@ struct FoundOut {
 /// Filled in by the app, but for what is said to be the panel's own.
 struct ExperimentWork {
     std::array<std::shared_ptr<const FoundOut>, experiment_kinds> found; ///< null: not made yet
+    std::array<std::string, experiment_kinds> refused; ///< why the last one could not be made; empty: it could
     struct Job {
         ExperimentKind kind = ExperimentKind::accuracy;
         double share = 0; ///< done, 0 to 1

@@ -109,7 +109,15 @@ void choose_view(Lab& lab, std::size_t kind, const experiments::Findings& findin
 void draw_findings(Lab& lab, ExperimentKind which) {
     const auto kind = static_cast<std::size_t>(which);
     const std::shared_ptr<const FoundOut> found = lab.experiments.found[kind];
+    const std::string& refused = lab.experiments.refused[kind];
+    if (!refused.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, colour::warning);
+        ImGui::TextWrapped("%s", (std::string(ICON_FA_TRIANGLE_EXCLAMATION "  ") + refused).c_str());
+        ImGui::PopStyleColor();
+    }
     if (!found) {
+        if (!refused.empty())
+            return;
         ImGui::PushTextWrapPos(0);
         ImGui::TextColored(colour::faint, "%s", questions[kind]);
         ImGui::PopTextWrapPos();
@@ -201,7 +209,7 @@ std::optional<bool> path_rows(std::string& path, const fs::path& replaced, const
 
 void draw_experiments(Lab& lab) {
     ExperimentWork& work = lab.experiments;
-    if (!ImGui::BeginTabBar("experiments"))
+    if (!ImGui::BeginTabBar("experiments", ImGuiTabBarFlags_DrawSelectedOverline))
         return;
     for (std::size_t i = 0; i < experiment_kinds; ++i) {
         const auto kind = static_cast<ExperimentKind>(i);
