@@ -152,6 +152,8 @@ void ExperimentDesk::follow_trial(const Published& now) {
         return; // the user has gone elsewhere
     show_run(trial.run, trial.name);
     lab_.ask(ui::TimelineRequest(ui::ShowGhost{*trial.reference}));
+    // As long as there is a reference to compare with, again and again.
+    lab_.ask(ui::TimelineRequest(ui::SetLoop{timeline::FrameRange{0, trial.frames}}));
 }
 
 void ExperimentDesk::carry_out(const ui::SaveFindings& r) {
