@@ -28,6 +28,12 @@ std::string name_of(const experiments::Settings& settings) {
     return name.empty() ? "the scene itself" : name.size() > most ? name.substr(0, most) + " ..." : name;
 }
 
+/// Names a run that has just been begun; one that was there before keeps its name.
+void name_new_run(timeline::Player& player, const std::string& name) {
+    if (player.timeline().find(player.line())->end == 0)
+        player.rename_branch(player.line(), name);
+}
+
 bool is_there(const fs::path& file) {
     std::error_code error;
     return fs::exists(file, error);
@@ -123,7 +129,7 @@ void ExperimentDesk::show_reference(const sim::Description& reference, double se
     simulation_.play(false);
     simulation_.restart(reference);
     simulation_.note([id = trial_->reference](timeline::Player& player) {
-        player.rename_branch(player.line(), "reference");
+        name_new_run(player, "reference");
         *id = player.line();
     });
     // From its first frame on: the same run may be there already, with its playhead somewhere.
@@ -133,7 +139,7 @@ void ExperimentDesk::show_reference(const sim::Description& reference, double se
 
 void ExperimentDesk::show_run(const sim::Description& run, const std::string& name) {
     simulation_.restart(run);
-    simulation_.note([name](timeline::Player& player) { player.rename_branch(player.line(), name); });
+    simulation_.note([name](timeline::Player& player) { name_new_run(player, name); });
     simulation_.jump_to_start();
     simulation_.play(true);
 }
