@@ -120,7 +120,8 @@ std::vector<pid_t> children_of(pid_t process) {
         if (entry.path().filename().string().find_first_not_of("0123456789") != std::string::npos)
             continue;
         std::ifstream stat(entry.path() / "stat");
-        std::string text{std::istreambuf_iterator<char>(stat), {}};
+        std::string text; // stays empty where the process goes while it is looked at
+        std::getline(stat, text);
         const std::size_t name_end = text.rfind(')'); // "17 (clothlab) S 16 ..."
         long parent = 0;
         if (name_end != std::string::npos && std::sscanf(text.c_str() + name_end + 1, " %*c %ld", &parent) == 1 &&
@@ -331,7 +332,8 @@ TEST_CASE("A worker whose sweep is gone ends by itself", "[program]") {
     running.end(SIGKILL);
     const auto gone = [&] {
         std::ifstream stat("/proc/" + std::to_string(workers.front()) + "/stat");
-        const std::string text{std::istreambuf_iterator<char>(stat), {}};
+        std::string text;
+        std::getline(stat, text);
         return text.empty() || text.find(") Z ") != std::string::npos; // nobody may wait for it in a container
     };
     while (!gone())
