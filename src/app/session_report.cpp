@@ -9,6 +9,7 @@
 #include "app/scene_view.h"
 #include "app/textures.h"
 #include "scene/io.h"
+#include "scene/number_text.h"
 #include "sim/integrators/integrator.h"
 #include "ui/change_text.h"
 
@@ -22,12 +23,6 @@ using experiments::Table;
 constexpr int picture_width = 1280, picture_height = 800;
 constexpr const char* viewport_file = "viewport.png";
 constexpr const char* curves_name = "curves";
-
-std::string hex(std::uint64_t value) {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value));
-    return digits;
-}
 
 ReportSection state(const ui::Lab& lab) {
     const sim::Snapshot& s = *lab.snapshot;
@@ -140,7 +135,7 @@ ReportSection again(const ui::Lab& lab, std::uint64_t hash) {
             std::string(sim::instruction_sets()[static_cast<std::size_t>(s.instructions)].name) + " instructions on " +
             std::to_string(s.threads) + (s.threads == 1 ? " thread" : " threads") +
             " (the result is the same with any), drawn by " + (driver ? driver : "an unknown driver") + ".",
-        "The hash of the state shown is " + hex(hash) +
+        "The hash of the state shown is " + scene::hash_text(hash) +
             ". The recording has the whole session with its branches, and goes on from any of its moments to the very "
             "same bits. The first command prints the hash; the second goes on for a second; the third opens the scene "
             "with the "

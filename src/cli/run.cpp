@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "cli/command_line.h"
+#include "scene/frames.h"
 #include "scene/io.h"
 #include "scene/number_text.h"
 #include "scene/whole_file.h"
@@ -163,17 +164,7 @@ std::uint64_t frames_to_run(const RunArguments& arguments, const sim::Descriptio
         return static_cast<std::uint64_t>(*arguments.frames);
     if (!arguments.seconds)
         return 90;
-    // 0.1 s at 90 frames/s is 9 frames, not 10, whatever the product rounds to.
-    const double frames = *arguments.seconds * description.stepping.frames_per_second;
-    if (!(frames < 1e15))
-        throw scene::SceneError("--seconds: too long a run");
-    return static_cast<std::uint64_t>(std::ceil(frames * (1 - 1e-12)));
-}
-
-std::string hex(std::uint64_t value) {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value));
-    return digits;
+    return scene::frames_of(*arguments.seconds, description);
 }
 
 std::string_view instruction_name(sim::InstructionSet set) {
@@ -240,7 +231,7 @@ Json results(const Start& start, const sim::Simulation& simulation, std::uint64_
             {"status", sim::status_names[static_cast<std::size_t>(d.status)]},
             {"cause", d.cause},
             {"stability", stability(simulation.stability())},
-            {"hash", hex(simulation.hash())}};
+            {"hash", scene::hash_text(simulation.hash())}};
 }
 
 void print_table(const Json& json, const std::string& prefix = "") {
@@ -307,7 +298,7 @@ int run(const RunArguments& arguments) {
         recorder->finish();
 
     if (arguments.hash && !arguments.json) {
-        std::cout << hex(simulation.hash()) << "\n";
+        std::cout << scene::hash_text(simulation.hash()) << "\n";
         return 0;
     }
     if (arguments.csv == "-")

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
+#include <cstdio>
 #include <string>
 
 namespace clothlab::scene {
@@ -12,6 +14,20 @@ inline void append_number(std::string& text, double value, bool single) {
     const auto result = single ? std::to_chars(digits, digits + sizeof digits, static_cast<float>(value))
                                : std::to_chars(digits, digits + sizeof digits, value);
     text.append(digits, result.ptr);
+}
+
+/// The fewest digits that read back as the same double.
+inline std::string shortest_text(double value) {
+    std::string text;
+    append_number(text, value, false);
+    return text;
+}
+
+/// A hash as it is printed everywhere: 16 hexadecimal digits.
+inline std::string hash_text(std::uint64_t hash) {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+    return digits;
 }
 
 } // namespace clothlab::scene

@@ -9,6 +9,7 @@
 #include "experiments/stability/bisection.h"
 #include "experiments/stability/map.h"
 #include "experiments/sweep/sweep.h"
+#include "scene/frames.h"
 #include "scene/number_text.h"
 #include "sim/integrators/integrator.h"
 #include "ui/experiment_rows.h"
@@ -24,12 +25,6 @@ using Options = std::vector<std::string>;
 
 int cores() {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-std::string text_of(double value) {
-    std::string text;
-    scene::append_number(text, value, false);
-    return text;
 }
 
 /// Above the settings, where it is seen however low the panel is.
@@ -87,7 +82,7 @@ RunExperiment accuracy_request(const Lab& lab) {
     config.substeps = substeps_of(f);
     config.budget = f.budget;
     config.rules = f.rules;
-    Options options{"--seconds", text_of(f.seconds), "--quantity",
+    Options options{"--seconds", scene::shortest_text(f.seconds), "--quantity",
                     experiments::error_quantities()[static_cast<std::size_t>(f.quantity)].name};
     std::string methods, substeps;
     for (std::size_t i = 0; i < f.methods.size(); ++i)
@@ -99,7 +94,7 @@ RunExperiment accuracy_request(const Lab& lab) {
         options.insert(options.end(), {"--methods", methods});
     for (const int n : config.substeps)
         substeps += (substeps.empty() ? "" : ",") + std::to_string(n);
-    options.insert(options.end(), {"--substeps", substeps, "--budget", text_of(f.budget)});
+    options.insert(options.end(), {"--substeps", substeps, "--budget", scene::shortest_text(f.budget)});
     if (f.precisions == 1)
         config.precisions = {sim::Precision::single_precision};
     if (f.precisions == 2)
@@ -187,17 +182,20 @@ RunExperiment needs_request(const Lab& lab) {
     experiments::needs::Config config;
     config.scene = lab.scene;
     config.source = lab.scene.name;
-    config.frames = experiments::frames_of({0, f.seconds}, lab.scene.simulation);
     config.quantity = quantity.id;
     config.tolerance = f.tolerance;
     config.at_end = f.at_end;
     config.threads = f.second_thread ? std::min(2, cores()) : 1;
-    Options options{"--seconds",   text_of(f.seconds),   "--quantity", std::string(quantity.name),
-                    "--tolerance", text_of(f.tolerance), "--threads",  std::to_string(config.threads)};
+    Options options{"--seconds",   scene::shortest_text(f.seconds),   "--quantity", std::string(quantity.name),
+                    "--tolerance", scene::shortest_text(f.tolerance), "--threads",  std::to_string(config.threads)};
     if (f.at_end)
         options.emplace_back("--at-end");
     return experiment_request(ExperimentKind::needs, options,
-                              [config](const Progress& progress) { return run_needs(config, progress).findings; });
+                              [config, seconds = f.seconds](const Progress& progress) mutable {
+                                  // Here, where what is wrong with it is told like everything else that is.
+                                  config.frames = scene::frames_of(seconds, config.scene.simulation);
+                                  return run_needs(config, progress).findings;
+                              });
 }
 
 bool needs_form(Lab& lab, bool enabled) {

@@ -50,12 +50,6 @@ void suggest_range(const Lab& lab, const scene::Field& field, AxisChoice& axis) 
     }
 }
 
-std::string text_of(double value) {
-    std::string text;
-    scene::append_number(text, value, false);
-    return text;
-}
-
 } // namespace
 
 void form_label(const char* label, const char* help) {
@@ -145,7 +139,7 @@ void form_axis(Lab& lab, const char* label, AxisChoice& axis, bool categorical, 
         tooltip("How many values");
         ImGui::SameLine(0, ImGui::GetFontSize() * 0.4f);
     }
-    ImGui::Checkbox("by factors", &axis.log);
+    ImGui::Checkbox("log", &axis.log);
     tooltip("From each value to the next the same factor, rather than the same difference");
     ImGui::PopID();
 }
@@ -155,7 +149,7 @@ std::string axis_text(const AxisChoice& axis, bool count) {
     const AxisKey* found = find_key(keys, axis.key);
     if (found && found->categorical)
         return axis.key + (axis.list.empty() ? "" : "=" + axis.list);
-    return axis.key + "=" + text_of(axis.from) + ":" + text_of(axis.to) +
+    return axis.key + "=" + scene::shortest_text(axis.from) + ":" + scene::shortest_text(axis.to) +
            (count ? ":" + std::to_string(axis.count) : "") + (axis.log ? "log" : "");
 }
 

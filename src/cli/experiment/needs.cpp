@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/experiment/experiment.h"
+#include "scene/frames.h"
 #include "scene/io.h"
 #include "scene/whole_file.h"
 
@@ -27,11 +28,7 @@ experiments::needs::Config config_of(const Arguments& a) {
     experiments::needs::Config config;
     config.scene = a.scene.load();
     config.source = a.scene.scene;
-    // 0.1 s at 90 frames/s is 9 frames, not 10, whatever the product rounds to.
-    const double frames = std::ceil(a.seconds * config.scene.simulation.stepping.frames_per_second * (1 - 1e-12));
-    if (!(frames < 1e9))
-        throw scene::SceneError("--seconds: too long a run");
-    config.frames = static_cast<std::uint64_t>(frames);
+    config.frames = scene::frames_of(a.seconds, config.scene.simulation);
     for (const experiments::needs::QuantityInfo& quantity : experiments::needs::quantities())
         if (quantity.name == a.quantity)
             config.quantity = quantity.id;

@@ -156,7 +156,7 @@ Findings run_accuracy(const AccuracyConfig& wanted, const Progress& progress) {
     AccuracyRuns runs;
     const double frames = std::round(config.seconds * config.scene.simulation.stepping.frames_per_second);
     if (!(frames >= 1 && frames < 1e9))
-        throw Refusal(formatted("%g s is not a time of at least one frame, %g s", config.seconds,
+        throw Refusal(formatted("%g s is not a time of one frame, %g s, up to 1e9 of them", config.seconds,
                                 1 / config.scene.simulation.stepping.frames_per_second));
     runs.frames = static_cast<std::uint64_t>(frames);
     runs.reference = find_reference(

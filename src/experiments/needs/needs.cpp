@@ -31,6 +31,8 @@ void check_kept(const Config& config) {
 
 Result run_needs(const Config& config, const Progress& progress) {
     check_kept(config);
+    if (!(config.tolerance > 0))
+        throw Refusal("the tolerance has to be a number above 0");
     const Found found = search(config, progress);
     return {findings_of(config, found), recommended_scene(config, found)};
 }

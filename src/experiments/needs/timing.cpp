@@ -21,12 +21,6 @@ double seconds_of_run(const sim::Description& model, const Course& course, const
     return seconds;
 }
 
-Measured measured(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return {(values[(n - 1) / 2] + values[n / 2]) / 2, values.front(), values.back()};
-}
-
 } // namespace
 
 std::vector<Measured> time_by_turns(const std::vector<sim::Description>& models, const Course& course,

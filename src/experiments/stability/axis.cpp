@@ -194,18 +194,12 @@ VariedAxis range_axis(const std::string& key, std::string_view range, std::size_
         if (axis.quantity.whole)
             value = std::round(value);
         if (axis.values.empty() || value > axis.values.back().at)
-            axis.values.push_back({value, digits_of(value), settings_of(axis.quantity, value, scene)});
+            axis.values.push_back({value, scene::shortest_text(value), settings_of(axis.quantity, value, scene)});
     }
     return axis;
 }
 
 } // namespace
-
-std::string digits_of(double value) {
-    std::string text;
-    scene::append_number(text, value, false);
-    return text;
-}
 
 Quantity quantity_of(std::string_view name, const scene::Scene& scene) {
     const std::string key = full_key(name, scene);
@@ -232,9 +226,9 @@ double value_of(const Quantity& quantity, const scene::Scene& scene) {
 
 Settings settings_of(const Quantity& quantity, double value, const scene::Scene& scene) {
     if (quantity.key != "grid")
-        return {quantity.key + "=" + digits_of(value)};
+        return {quantity.key + "=" + scene::shortest_text(value)};
     const sim::Cloth& cloth = scene.simulation.cloth;
-    const std::string n = digits_of(value);
+    const std::string n = scene::shortest_text(value);
     std::string pins;
     const auto moved = [value](int index, int points) {
         return std::to_string(static_cast<int>(std::lround(index * (value - 1) / (points - 1))));

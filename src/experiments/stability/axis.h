@@ -55,7 +55,4 @@ struct VariedAxis {
 /// for simulation.integrator. Throws Refusal, and scene::SceneError for values that the scene does not allow.
 VariedAxis read_axis(std::string_view text, std::size_t resolution, const scene::Scene& scene);
 
-/// As files have it: the fewest digits that are read back to the last bit.
-std::string digits_of(double value);
-
 } // namespace clothlab::experiments

@@ -5,19 +5,15 @@
 #include <cstdio>
 #include <map>
 
+#include "experiments/formatted.h"
 #include "experiments/run_parallel.h"
 #include "experiments/stability/axis.h"
 #include "experiments/stability/prediction.h"
 #include "experiments/trial.h"
+#include "scene/number_text.h"
 
 namespace clothlab::experiments {
 namespace {
-
-std::string text(const char* format, auto... arguments) {
-    char buffer[400];
-    std::snprintf(buffer, sizeof buffer, format, arguments...);
-    return buffer;
-}
 
 /// How far from the prediction the first interval's ends are; the next ones if those are alike.
 constexpr double reaches[] = {0.02, 0.1, 0.5};
@@ -79,7 +75,8 @@ private:
             wanted.size(), config_.threads,
             [&](std::size_t i, const Check& check) { judged[i] = judge(description(wanted[i]), config_.judge, check); },
             [&](std::size_t) {
-                progress_.tell(share, quantity_.key + "=" + (wanted.empty() ? "" : digits_of(wanted.front())));
+                progress_.tell(share,
+                               quantity_.key + "=" + (wanted.empty() ? "" : scene::shortest_text(wanted.front())));
             });
         for (std::size_t i = 0; i < wanted.size(); ++i)
             runs_[wanted[i]] = std::move(judged[i]);
@@ -124,9 +121,9 @@ private:
             high_ = whole(*config_.to, true);
             judge_these({low_, high_});
             if (stable(low_) == stable(high_))
-                throw Refusal(text("%s: both ends of the range, %s and %s, are %s", quantity_.key.c_str(),
-                                   digits_of(low_).c_str(), digits_of(high_).c_str(),
-                                   stable(low_) ? "stable" : "unstable"));
+                throw Refusal(formatted("%s: both ends of the range, %s and %s, are %s", quantity_.key.c_str(),
+                                        scene::shortest_text(low_).c_str(), scene::shortest_text(high_).c_str(),
+                                        stable(low_) ? "stable" : "unstable"));
             return;
         }
         const std::optional<double> near = predicted_near_scene();
@@ -137,15 +134,16 @@ private:
             low_ = config_.from ? *config_.from : allowed(whole(*near * (1 - reach), false));
             high_ = config_.to ? *config_.to : allowed(whole(*near * (1 + reach), true));
             if (!(low_ < high_))
-                throw Refusal(text("%s: the limit is predicted at %s, outside of the range", quantity_.key.c_str(),
-                                   digits_of(*near).c_str()));
+                throw Refusal(formatted("%s: the limit is predicted at %s, outside of the range", quantity_.key.c_str(),
+                                        scene::shortest_text(*near).c_str()));
             judge_these({low_, high_});
             if (stable(low_) != stable(high_))
                 return;
         }
-        throw Refusal(text("%s: the limit is predicted at %s, but %s and %s are both %s; give --from and --to",
-                           quantity_.key.c_str(), digits_of(*near).c_str(), digits_of(low_).c_str(),
-                           digits_of(high_).c_str(), stable(low_) ? "stable" : "unstable"));
+        throw Refusal(formatted("%s: the limit is predicted at %s, but %s and %s are both %s; give --from and --to",
+                                quantity_.key.c_str(), scene::shortest_text(*near).c_str(),
+                                scene::shortest_text(low_).c_str(), scene::shortest_text(high_).c_str(),
+                                stable(low_) ? "stable" : "unstable"));
     }
 
     /// Near the observed limit: from the start pose, and from the largest omega of the poses of the last stable run.
@@ -216,30 +214,31 @@ private:
         const char *key = quantity_.key.c_str(), *unit = quantity_.unit.c_str();
         const char* space = quantity_.unit.empty() ? "" : " ";
         const bool stable_below = stable(low_);
-        std::string sentence = text(
-            "%s is %s at %s%s%s and %s at %s%s%s", key, verdict_names[static_cast<std::size_t>(runs_.at(low_).verdict)],
-            digits_of(low_).c_str(), space, unit, verdict_names[static_cast<std::size_t>(runs_.at(high_).verdict)],
-            digits_of(high_).c_str(), space, unit);
+        std::string sentence = formatted("%s is %s at %s%s%s and %s at %s%s%s", key,
+                                         verdict_names[static_cast<std::size_t>(runs_.at(low_).verdict)],
+                                         scene::shortest_text(low_).c_str(), space, unit,
+                                         verdict_names[static_cast<std::size_t>(runs_.at(high_).verdict)],
+                                         scene::shortest_text(high_).c_str(), space, unit);
         if (predicted_ && quantity_.whole && *distance(predicted_) == 0)
-            sentence += text(": the limit is where it is predicted, at %.5g.", *predicted_);
+            sentence += formatted(": the limit is where it is predicted, at %.5g.", *predicted_);
         else if (predicted_)
-            sentence += text(": the limit is %.2g %% %s the predicted %.6g%s%s, give or take %.2g %%.",
-                             std::abs(*distance(predicted_)), *distance(predicted_) < 0 ? "below" : "above",
-                             *predicted_, space, unit, 50 * (high_ - low_) / std::abs(observed()));
+            sentence += formatted(": the limit is %.2g %% %s the predicted %.6g%s%s, give or take %.2g %%.",
+                                  std::abs(*distance(predicted_)), *distance(predicted_) < 0 ? "below" : "above",
+                                  *predicted_, space, unit, 50 * (high_ - low_) / std::abs(observed()));
         else
             sentence += "; no limit is predicted there.";
         findings_.sentences.push_back(sentence);
         if (predicted_ && predicted_in_motion_ && std::abs(*predicted_in_motion_ / *predicted_ - 1) > 1e-4)
-            findings_.sentences.push_back(text(
+            findings_.sentences.push_back(formatted(
                 "In the poses that the last stable run goes through, the fastest mode would put it at %.6g%s%s, and "
                 "the observed limit %.2g %% %s that.",
                 *predicted_in_motion_, space, unit, std::abs(*distance(predicted_in_motion_)),
                 *distance(predicted_in_motion_) < 0 ? "below" : "above"));
         findings_.notes = {
-            text("%zu runs; stable %s the limit%s.", runs_.size(), stable_below ? "below" : "above",
-                 quantity_.whole ? ", which is found to 1"
-                                 : text(", which is found to %.2g %%", 100 * (high_ / low_ - 1)).c_str()),
-            text(
+            formatted("%zu runs; stable %s the limit%s.", runs_.size(), stable_below ? "below" : "above",
+                      quantity_.whole ? ", which is found to 1"
+                                      : formatted(", which is found to %.2g %%", 100 * (high_ / low_ - 1)).c_str()),
+            formatted(
                 "At the start every point is moved by up to %g of the shortest rest length, so that there is something "
                 "to grow.",
                 start_noise),

@@ -9,6 +9,7 @@
 #include "experiments/stability/fastest_mode.h"
 #include "experiments/stability/start_displacement.h"
 #include "experiments/stability/unrest.h"
+#include "scene/frames.h"
 #include "sim/integrators/integrator.h"
 #include "sim/simulation.h"
 
@@ -79,17 +80,10 @@ private:
 std::uint64_t frames_of(const sim::Description& description, const JudgeConfig& config) {
     if (config.frames)
         return *config.frames;
-    // 0.1 s at 90 frames/s is 9 frames, not 10, whatever the product rounds to.
-    const auto frames = [&](double seconds) {
-        const double count = std::ceil(seconds * description.stepping.frames_per_second * (1 - 1e-12));
-        if (!(count < 1e15))
-            throw Refusal("too long a run: there are no more than 1e15 frames");
-        return static_cast<std::uint64_t>(count);
-    };
     if (config.seconds)
-        return frames(*config.seconds);
+        return scene::frames_of(*config.seconds, description);
     const auto substeps = static_cast<std::uint64_t>(description.stepping.substeps);
-    return std::max(frames(default_seconds), (default_steps + substeps - 1) / substeps);
+    return std::max(scene::frames_of(default_seconds, description), (default_steps + substeps - 1) / substeps);
 }
 
 Judged judge(const sim::Description& description, const JudgeConfig& config, const Check& check, bool poses) {

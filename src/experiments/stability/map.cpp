@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "experiments/formatted.h"
 #include "experiments/run_parallel.h"
 #include "experiments/stability/axis.h"
 #include "experiments/stability/boundary.h"
@@ -15,12 +16,6 @@
 
 namespace clothlab::experiments {
 namespace {
-
-std::string text(const char* format, auto... arguments) {
-    char buffer[400];
-    std::snprintf(buffer, sizeof buffer, format, arguments...);
-    return buffer;
-}
 
 class Mapping {
 public:
@@ -72,7 +67,7 @@ private:
             return axis.categorical ? axis.values.size() : std::min(config_.blocks + 1, axis.values.size());
         };
         const double expected = static_cast<double>(side(x_) * side(y_) + 3 * (x_.values.size() + y_.values.size()));
-        progress_.tell(std::min(0.9, 0.9 * static_cast<double>(done) / expected), text("run %zu", done + 1));
+        progress_.tell(std::min(0.9, 0.9 * static_cast<double>(done) / expected), formatted("run %zu", done + 1));
     }
 
     std::vector<int> judge_all(const std::vector<LatticePoint>& points) {
@@ -174,48 +169,50 @@ private:
         };
         const char* key = along_.quantity.key.c_str();
         if (!distances.empty())
-            findings_.sentences.push_back(
-                text("Observed and predicted boundary are %.2g %% of %s apart in the median, %.2g %% at most, at %zu "
-                     "points; half a cell is %.2g %%.",
-                     median(distances), key, *std::max_element(distances.begin(), distances.end()), distances.size(),
-                     median(halves)));
+            findings_.sentences.push_back(formatted(
+                "Observed and predicted boundary are %.2g %% of %s apart in the median, %.2g %% at most, at %zu "
+                "points; half a cell is %.2g %%.",
+                median(distances), key, *std::max_element(distances.begin(), distances.end()), distances.size(),
+                median(halves)));
         else if (border_.empty())
-            findings_.sentences.push_back(text("There is no boundary in this map: every run that was judged is %s.",
-                                               refined_.kind[0] == 0 ? "stable" : "unstable"));
+            findings_.sentences.push_back(
+                formatted("There is no boundary in this map: every run that was judged is %s.",
+                          refined_.kind[0] == 0 ? "stable" : "unstable"));
         else
             findings_.sentences.push_back("No boundary is predicted where one was observed.");
         const std::size_t alone = border_.size() - distances.size();
         if (alone > 0 && !distances.empty())
             findings_.sentences.push_back(
-                text("At %zu more points a boundary was observed and none predicted.", alone));
+                formatted("At %zu more points a boundary was observed and none predicted.", alone));
         std::array<std::size_t, verdict_names.size()> counts{};
         for (const int kind : refined_.kind)
             ++counts[static_cast<std::size_t>(kind)];
         std::string list;
         for (std::size_t i = 0; i < counts.size(); ++i)
-            list += text("%s%zu %s",
-                         i == 0                   ? ""
-                         : i + 1 == counts.size() ? " and "
-                                                  : ", ",
-                         counts[i], verdict_names[i]);
-        findings_.sentences.push_back(text("Of %zu cells %s.", refined_.kind.size(), list.c_str()));
+            list += formatted("%s%zu %s",
+                              i == 0                   ? ""
+                              : i + 1 == counts.size() ? " and "
+                                                       : ", ",
+                              counts[i], verdict_names[i]);
+        findings_.sentences.push_back(formatted("Of %zu cells %s.", refined_.kind.size(), list.c_str()));
         const auto runs = static_cast<double>(judged_.size()), full = static_cast<double>(refined_.kind.size());
-        findings_.sentences.push_back(text(
+        findings_.sentences.push_back(formatted(
             "It took %.0f runs; the full grid would have taken %.0f, %.1f times as many.", runs, full, full / runs));
 
         findings_.notes = {
-            text("Cells are runs of a coarse lattice of %zu blocks a side, and of points next to a change of verdict; "
-                 "the "
-                 "others are taken to be like those around them. An island between coarse points would be missed.",
-                 config_.blocks),
-            text(
+            formatted(
+                "Cells are runs of a coarse lattice of %zu blocks a side, and of points next to a change of verdict; "
+                "the "
+                "others are taken to be like those around them. An island between coarse points would be missed.",
+                config_.blocks),
+            formatted(
                 "At the start every point is moved by up to %g of the shortest rest length, so that there is something "
                 "to grow.",
                 start_noise),
             config_.judge.frames || config_.judge.seconds
                 ? "A run without trouble is stable at its end."
-                : text("A run without trouble is stable after %g s and %llu steps.", default_seconds,
-                       static_cast<unsigned long long>(default_steps)),
+                : formatted("A run without trouble is stable after %g s and %llu steps.", default_seconds,
+                            static_cast<unsigned long long>(default_steps)),
             "Predicted is omega dt of the fastest mode of the start pose against the method's limit; contacts and the "
             "stretch limit are not part of it."};
     }

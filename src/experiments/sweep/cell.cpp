@@ -8,7 +8,8 @@
 
 #include "experiments/findings.h"
 #include "experiments/trial.h"
-#include "scene/error.h"
+#include "scene/frames.h"
+#include "scene/number_text.h"
 #include "sim/intersections.h"
 #include "sim/simulation.h"
 
@@ -28,12 +29,6 @@ struct Contacts {
             first_with_itself = time;
     }
 };
-
-std::string hex(std::uint64_t value) {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value));
-    return digits;
-}
 
 /// What is nothing stays empty.
 class Row {
@@ -61,11 +56,7 @@ private:
 std::uint64_t frames_of(const SweepLength& length, const sim::Description& description) {
     if (!length.seconds)
         return length.frames;
-    // 0.1 s at 90 frames/s is 9 frames, not 10, whatever the product rounds to.
-    const double frames = *length.seconds * description.stepping.frames_per_second;
-    if (!(frames < 1e15))
-        throw scene::SceneError("--seconds: too long a run");
-    return static_cast<std::uint64_t>(std::ceil(frames * (1 - 1e-12)));
+    return scene::frames_of(*length.seconds, description);
 }
 
 std::vector<Column> cell_columns(bool times) {
@@ -141,7 +132,7 @@ std::vector<Value> run_cell(const sim::Description& description, std::uint64_t f
         row.add(seconds);
         row.add(seconds > 0 ? std::optional(static_cast<double>(simulation->steps()) / seconds) : std::nullopt);
     }
-    row.add(hex(simulation->hash()));
+    row.add(scene::hash_text(simulation->hash()));
     row.add(d.cause);
     return row.take();
 }

@@ -14,6 +14,7 @@
 #include "experiments/trial.h"
 #include "scene/fields.h"
 #include "scene/io.h"
+#include "scene/number_text.h"
 
 namespace clothlab::experiments {
 namespace {
@@ -41,11 +42,7 @@ public:
             add_byte(static_cast<unsigned char>(c));
         add_byte(0);
     }
-    std::string hex() const {
-        char digits[17];
-        std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value_));
-        return digits;
-    }
+    std::string hex() const { return scene::hash_text(value_); }
 
 private:
     void add_byte(unsigned char byte) { value_ = (value_ ^ byte) * 0x100000001b3u; }
