@@ -51,8 +51,24 @@ int format_tick(double value, char* text, int size, void*) {
     return std::snprintf(text, static_cast<std::size_t>(size), "%.6g", std::abs(value) < 1e-300 ? 0.0 : value);
 }
 
-void set_up_axis(ImAxis axis, const Axis& of) {
-    ImPlot::SetupAxis(axis, of.label.c_str(), ImPlotAxisFlags_NoSideSwitch);
+/// As much of a label as has room in so many px, from its beginning: ImPlot would draw it over what is beside the
+/// chart.
+std::string fitting_label(const std::string& label, float room) {
+    if (ImGui::CalcTextSize(label.c_str()).x <= room)
+        return label;
+    std::string shorter = label.substr(0, label.find(": "));
+    if (const std::size_t remark = shorter.find("; "); remark != std::string::npos)
+        shorter = shorter.substr(0, remark) + ")";
+    if (ImGui::CalcTextSize(shorter.c_str()).x <= room)
+        return shorter;
+    while (!shorter.empty() && ImGui::CalcTextSize((shorter + "...").c_str()).x > room)
+        shorter.pop_back();
+    return shorter + "...";
+}
+
+/// `room` for its label, in px.
+void set_up_axis(ImAxis axis, const Axis& of, float room) {
+    ImPlot::SetupAxis(axis, fitting_label(of.label, room).c_str(), ImPlotAxisFlags_NoSideSwitch);
     if (!of.names.empty()) {
         std::vector<double> places;
         std::vector<const char*> names;
@@ -248,8 +264,9 @@ ChartMouse draw_chart(const Chart& chart, const experiments::Table& table, const
     const ImPlotFlags flags = int{ImPlotFlags_NoMouseText} | (legend ? 0 : int{ImPlotFlags_NoLegend}) |
                               (titled ? 0 : int{ImPlotFlags_NoTitle});
     if (ImPlot::BeginPlot((chart.title + "###" + id).c_str(), size, flags)) {
-        set_up_axis(ImAxis_X1, chart.x);
-        set_up_axis(ImAxis_Y1, chart.y);
+        // What is left beside legend and numbers, about.
+        set_up_axis(ImAxis_X1, chart.x, size.x - scaled(legend ? 200 : 60));
+        set_up_axis(ImAxis_Y1, chart.y, size.y - scaled(titled ? 70 : 50));
         const ChartLimits limits = limits_of(chart);
         const ImPlotCond when = fit ? ImPlotCond_Always : ImPlotCond_Once;
         ImPlot::SetupAxisLimits(ImAxis_X1, limits.x_low, limits.x_high, when);

@@ -96,8 +96,10 @@ void choose_view(Lab& lab, std::size_t kind, const experiments::Findings& findin
     ImGui::SameLine();
     if (icon_button(ICON_FA_FLOPPY_DISK, "##save",
                     "Save the table as CSV, the charts as PNG pictures, or the run that was clicked as a scene")) {
-        lab.experiments.files.save = true;
-        lab.experiments.files.kind = static_cast<ExperimentKind>(kind);
+        auto& files = lab.experiments.files;
+        files.save = true;
+        files.kind = static_cast<ExperimentKind>(kind);
+        files.path = std::string(experiment_names[kind]) + ".csv";
     }
     ImGui::SameLine();
     const std::string help = std::string("Copy the command that makes the same, once the scene is saved as ") +
@@ -238,8 +240,6 @@ void experiments_menu(Lab& lab) {
 
 void draw_experiment_windows(Lab& lab) {
     auto& files = lab.experiments.files;
-    if (files.save && files.path.empty())
-        files.path = std::string(experiment_names[static_cast<std::size_t>(files.kind)]) + ".csv";
     if (begin_window(save_window, files.save)) {
         ImGui::TextUnformatted(
             "Save as .csv, the table; as .png, the charts; or as .json, a scene with the\nparameters of "

@@ -235,6 +235,28 @@ TEST_CASE("A sweep from the panel: found, a run of it beside its reference, and 
     CHECK(std::any_of(e.lab().messages.begin(), e.lab().messages.end(), refused));
 }
 
+TEST_CASE("A time that is too long to be simulated is refused in the panel, and the lab goes on", "[threads]") {
+    ExperimentLab e(ExperimentKind::needs);
+    e.lab().experiments.forms.needs.seconds = 1e300;
+    REQUIRE(e.click("**/###run"));
+    const std::string& refused = e.lab().experiments.refused[2];
+    e.wait_for([&] { return !refused.empty(); });
+    CHECK(refused.find("too long a run") != std::string::npos);
+}
+
+TEST_CASE("The Experiments panel is drawn in a window of any size") {
+    for (const auto& [width, height] : {std::pair{1, 1}, {40, 30}, {300, 90}, {2560, 200}}) {
+        PanelDriver driver(width, height);
+        driver.lab.experiments.found[3] = std::make_shared<const ui::FoundOut>(made_up(driver.lab.scene));
+        for (std::size_t kind = 0; kind < ui::experiment_kinds; ++kind) {
+            open(driver.lab, static_cast<ExperimentKind>(kind));
+            driver.settle();
+        }
+        const render::Image picture = driver.picture();
+        CHECK(picture.width == width);
+    }
+}
+
 TEST_CASE("An experiment that cannot be made says why, and one that is cancelled leaves nothing", "[threads]") {
     ExperimentLab e(ExperimentKind::sweep);
     e.lab().experiments.forms.sweep.first = {"cloth.ks", 500, 500, 3, true, {}};
