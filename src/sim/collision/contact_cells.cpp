@@ -12,88 +12,123 @@
 namespace clothlab::sim {
 namespace {
 
-/// Counting sort of all points by bucket: `order` and `sorted`; points of a bucket stay ascending. Returns where each
-/// bucket ends. Neighbours in the grid mostly share a bucket, and each count has to wait for the one before: so the
-/// lower and the upper half of the points are counted and placed by turns.
+/// Fewer buckets cost less to sort, but more of them hold several cells; as many points as this for each.
+constexpr std::size_t points_per_bucket = 8;
+
+std::uint32_t bucket_mask(std::size_t points) {
+    return static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(points / points_per_bucket, 1)) - 1);
+}
+
+/// Counting sort of all points by bucket: `order` and the coordinates from `origin`; points of a bucket stay ascending.
+/// Sets where each bucket begins, and returns how many points the largest has. Neighbours along a row mostly share a
+/// cell: such runs are counted and placed as one.
 template <class Real>
-const std::uint32_t* sort_by_bucket(const Vec3Array<Real>& position, SelfCollisionWork<Real>& work,
-                                    std::size_t buckets) {
-    const std::size_t count = position.size(), half = count / 2;
-    std::uint32_t *lower = work.bucket_end.data(), *upper = lower + buckets;
-    std::fill_n(lower, 2 * buckets, 0u);
-    for (std::size_t i = 0; i < half; ++i) {
-        ++lower[work.bucket[i]];
-        ++upper[work.bucket[half + i]];
+std::size_t sort_by_bucket(const Vec3Array<Real>& position, SelfCollisionWork<Real>& work, std::array<Real, 3> origin,
+                           const Axes<float>& sorted, std::uint32_t mask) {
+    const std::size_t count = position.size(), buckets = std::size_t{mask} + 1;
+    const std::uint32_t* key = work.key.data();
+    std::uint32_t *run_end = work.run_end.data(), *next = work.cell_end.data();
+    std::size_t runs = 0;
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        run_end[runs] = static_cast<std::uint32_t>(i + 1);
+        runs += key[i] != key[i + 1] ? 1 : 0;
     }
-    if (count % 2 != 0)
-        ++upper[work.bucket[count - 1]];
-    std::uint32_t begin = 0;
+    run_end[runs++] = static_cast<std::uint32_t>(count);
+
+    std::fill_n(next, buckets, 0u);
+    for (std::uint32_t run = 0, first = 0; run < runs; first = run_end[run++])
+        next[key[first] & mask] += run_end[run] - first;
+    std::uint32_t begin = 0, largest = 0;
     for (std::size_t b = 0; b < buckets; ++b) {
-        begin += std::exchange(lower[b], begin);
-        begin += std::exchange(upper[b], begin);
+        const std::uint32_t size = std::exchange(next[b], begin);
+        work.bucket_begin[b] = begin;
+        begin += size;
+        largest = std::max(largest, size);
     }
-    // What is now each beginning moves on to its end.
-    const auto place = [&](std::size_t i, std::uint32_t* ends) {
-        const std::size_t k = ends[work.bucket[i]]++;
-        work.order[k] = static_cast<std::uint32_t>(i);
-        Real* sorted = work.sorted.data() + 4 * k;
-        sorted[0] = position.x[i];
-        sorted[1] = position.y[i];
-        sorted[2] = position.z[i];
-        sorted[3] = 0;
-    };
-    for (std::size_t i = 0; i < half; ++i) {
-        place(i, lower);
-        place(half + i, upper);
+    work.bucket_begin[buckets] = begin;
+    for (std::uint32_t run = 0, i = 0; run < runs; ++run) {
+        std::size_t k = std::exchange(next[key[i] & mask], next[key[i] & mask] + run_end[run] - i);
+        do {
+            work.order[k] = i;
+            sorted[0][k] = static_cast<float>(position.x[i] - origin[0]);
+            sorted[1][k] = static_cast<float>(position.y[i] - origin[1]);
+            sorted[2][k] = static_cast<float>(position.z[i] - origin[2]);
+            ++k;
+        } while (++i < run_end[run]);
     }
-    if (count % 2 != 0)
-        place(count - 1, upper);
-    return upper;
+    return largest;
 }
 
 } // namespace
+
+template <class Real>
+void prepare_cells(std::size_t points, SelfCollisionWork<Real>& work) {
+    work.run_end.resize(points);
+    work.bucket_begin.resize(bucket_mask(points) + std::size_t{2});
+    work.sorted_single.resize(3 * (points + CacheLineAllocator<float>::spare / sizeof(float)));
+}
 
 template <class Real>
 std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) {
     SelfCollisionWork<Real>& s = work.self_collision;
     Vec3Array<Real>& position = state.position;
     const std::size_t count = position.size();
-    const std::size_t buckets = std::bit_ceil(std::max<std::size_t>(count / 2, 1));
-    const std::array<Real, 3> cell{model.cell_x, model.cell_y, model.cell_z};
-    const auto bound = static_cast<double>(work.kernels->buckets(
-        {std::as_const(position).axes(), count, cell}, static_cast<std::uint32_t>(buckets - 1), s.bucket.data()));
-    const std::uint32_t* bucket_end = sort_by_bucket(position, s, buckets);
+    const std::array<Real, 3> width{model.cell_x, model.cell_y, model.cell_z};
+    const std::size_t room = s.sorted_single.size() / 3;
+    const Axes<float> sorted{s.sorted_single.data(), s.sorted_single.data() + room, s.sorted_single.data() + 2 * room};
+    const CellKeys<Real> keys = work.kernels->cell_keys({std::as_const(position).axes(), count, width}, s.anchor.axes(),
+                                                        s.key.data(), s.sorted.data());
+    const auto bound = static_cast<double>(keys.largest);
+    std::array<Real, 3> origin{};
+    double largest = bound; // of the coordinates in single precision
+    if (keys.exact) {
+        largest = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            origin[axis] = keys.low[axis] * width[axis];
+            largest = std::max(largest, static_cast<double>((keys.high[axis] - keys.low[axis] + 1) * width[axis]));
+        }
+    }
+    const std::uint32_t mask = bucket_mask(count);
+    const std::size_t largest_bucket = sort_by_bucket(position, s, origin, sorted, mask);
 
-    // Of points that are no longer finite, all that are not infinitely far apart are looked at.
-    const double reach = std::isfinite(bound) ? reach_of(model, bound) : std::numeric_limits<double>::infinity();
+    // Of points that are no longer finite, all that are not very far apart are looked at.
+    constexpr double most = 1e19, rounding = std::numeric_limits<float>::epsilon();
+    const double reach = std::isfinite(bound) ? std::min(reach_of(model, bound) + 4 * rounding * largest, most) : most;
     const CellPassArguments<Real> all{position.axes(),
                                       s.sorted.data(),
+                                      {sorted[0], sorted[1], sorted[2]},
                                       s.order.data(),
-                                      bucket_end,
-                                      s.bucket.data(), // no longer needed
+                                      s.key.data(),
+                                      std::as_const(s.anchor).axes(),
+                                      keys.exact,
+                                      mask,
+                                      s.bucket_begin.data(),
+                                      largest_bucket,
                                       0,
-                                      buckets,
+                                      count,
                                       model.pinned.data(),
-                                      cell,
                                       Real(2) * model.thickness,
-                                      static_cast<Real>(reach * reach * (1 + 1e-6)),
+                                      static_cast<float>(reach * reach * (1 + 1e-6)),
                                       static_cast<Real>(model.substeps)};
     const int threads = work.pool ? work.choice.threads() : 1;
     if (threads == 1)
         return work.kernels->cell_pass(all);
     const auto pass = [&](int index) {
-        const auto cut = [&](int i) {
-            return all.last_bucket * static_cast<std::size_t>(i) / static_cast<std::size_t>(threads);
+        const auto cut = [&](int i) -> std::size_t {
+            const std::size_t at = count * static_cast<std::size_t>(i) / static_cast<std::size_t>(threads);
+            return at == count ? count : s.bucket_begin[s.key[s.order[at]] & mask];
         };
         CellPassArguments<Real> part = all;
-        part.first_bucket = cut(index);
-        part.last_bucket = cut(index + 1);
+        part.begin = cut(index);
+        part.end = cut(index + 1);
         work.counts[static_cast<std::size_t>(index)] = work.kernels->cell_pass(part);
     };
     work.pool->run(threads, pass);
     return std::accumulate(work.counts.begin(), work.counts.begin() + threads, std::size_t{0});
 }
 
+template void prepare_cells<float>(std::size_t, SelfCollisionWork<float>&);
+template void prepare_cells<double>(std::size_t, SelfCollisionWork<double>&);
 template std::size_t resolve_in_cells<float>(const Model<float>&, State<float>&, Workspace<float>&);
 template std::size_t resolve_in_cells<double>(const Model<double>&, State<double>&, Workspace<double>&);
 

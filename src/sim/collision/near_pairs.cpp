@@ -86,19 +86,19 @@ bool list_far_pairs(const Model<Real>& model, const Vec3Array<Real>& position, W
 
     // Counting sort by cell.
     const std::size_t cells = std::size_t{box.count[0]} * box.count[1] * box.count[2];
-    std::fill_n(s.bucket_end.begin(), cells, 0u);
+    std::fill_n(s.cell_end.begin(), cells, 0u);
     for (std::size_t i = 0; i < points; ++i)
-        s.bucket[i] = box.cell(position.x[i], position.y[i], position.z[i]);
+        s.key[i] = box.cell(position.x[i], position.y[i], position.z[i]);
     for (std::size_t i = 0; i < points; ++i)
-        ++s.bucket_end[s.bucket[i]];
+        ++s.cell_end[s.key[i]];
     std::uint32_t begin = 0;
     for (std::size_t c = 0; c < cells; ++c)
-        begin += std::exchange(s.bucket_end[c], begin);
+        begin += std::exchange(s.cell_end[c], begin);
     const std::size_t room = s.sorted.size() / 4;
     const Axes<Real> sorted{s.sorted.data(), s.sorted.data() + room, s.sorted.data() + 2 * room};
     Real* index = s.sorted.data() + 3 * room;
     for (std::uint32_t i = 0; i < points; ++i) {
-        const std::uint32_t k = s.bucket_end[s.bucket[i]]++;
+        const std::uint32_t k = s.cell_end[s.key[i]]++;
         s.order[k] = i;
         sorted[0][k] = position.x[i];
         sorted[1][k] = position.y[i];
@@ -110,7 +110,7 @@ bool list_far_pairs(const Model<Real>& model, const Vec3Array<Real>& position, W
     const std::size_t found = work.kernels->far_pairs({{sorted[0], sorted[1], sorted[2]},
                                                        s.order.data(),
                                                        index,
-                                                       s.bucket_end.data(),
+                                                       s.cell_end.data(),
                                                        box.count,
                                                        static_cast<std::uint32_t>(model.grid->columns),
                                                        static_cast<Real>(most * most),

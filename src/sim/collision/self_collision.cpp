@@ -93,10 +93,11 @@ void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work) {
     s.cursor.assign(points, 0);
     s.active.assign(points / 64 + 1, 0);
     s.partners.resize(2 * s.pairs.capacity());
-    s.bucket.resize(points);
     s.order.resize(points);
-    s.bucket_end.resize(std::max(std::bit_ceil(points), most_cells(points) + 1));
+    s.key.resize(points);
+    s.cell_end.resize(most_cells(points) + 1);
     s.sorted.resize(4 * (points + CacheLineAllocator<Real>::spare / sizeof(Real)));
+    prepare_cells(points, s);
 }
 
 template std::size_t resolve_self_collision<float>(const Model<float>&, State<float>&, Workspace<float>&);

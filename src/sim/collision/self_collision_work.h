@@ -43,9 +43,15 @@ struct SelfCollisionWork {
     std::vector<std::uint64_t> active;   ///< a bit per point; all zero between steps
     std::vector<std::uint32_t> partners; ///< of the active points, one after the other
 
-    // Many: points sorted by hash bucket of their cell. Also used, by cell, while the list is made.
-    std::vector<std::uint32_t> bucket, order, bucket_end;
-    AlignedVector<Real> sorted; ///< four values per point
+    // Points sorted by cell: while the list is made, and many contacts. Then there is no list, and `anchor` has the
+    // cells of all points as whole numbers.
+    AlignedVector<std::uint32_t> key;        ///< of each point's cell
+    std::vector<std::uint32_t> order;        ///< points by cell
+    std::vector<std::uint32_t> cell_end;     ///< per cell, or bucket of cells
+    AlignedVector<Real> sorted;              ///< four values per point; many contacts: x, y, z, 0 of each, not sorted
+    std::vector<std::uint32_t> run_end;      ///< of points that follow each other in a cell
+    std::vector<std::uint32_t> bucket_begin; ///< per bucket, and one more
+    AlignedVector<float> sorted_single;      ///< three coordinates per point
 };
 
 } // namespace clothlab::sim

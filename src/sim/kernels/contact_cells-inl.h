@@ -27,163 +27,202 @@ HWY_INLINE hn::Vec<hn::Rebind<std::int32_t, Tag<Real>>> whole(Lane<Real> cell) {
         return hn::DemoteTo(di, cell);
 }
 
+/// Finds the cells of all points and their bounds. NaN is in no cell and bounds nothing.
 template <class Real>
-Real buckets(const CellArguments<Real>& a, std::uint32_t mask, std::uint32_t* bucket) {
+HWY_INLINE CellKeys<Real> find_cells(const CellArguments<Real>& a, const Axes<Real>& cell) {
     const Tag<Real> d;
-    auto bound = hn::Zero(d);
-    const hn::Rebind<std::int32_t, Tag<Real>> di;
-    HWY_ALIGN std::int32_t hashes[HWY_LANES(Real)];
-    constexpr std::int32_t primes[3] = {73856093, 19349663, 83492791};
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    Lane<Real> low[3], high[3], largest = hn::Zero(d);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = hn::Set(d, infinity);
+        high[axis] = hn::Set(d, -infinity);
+    }
     for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real)) {
-        auto hash = hn::Zero(di);
         const auto inside = lanes_before<Real>(static_cast<std::ptrdiff_t>(a.count - k));
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto x = hn::LoadU(d, a.x[axis] + k);
-            bound = hn::Max(bound, hn::IfThenElseZero(inside, hn::Abs(x)));
-            const auto cell = cell_of<Real>(x, a.cell[axis]);
-            hash = hn::Xor(hash, hn::Mul(whole<Real>(cell), hn::Set(di, primes[axis])));
+            const auto x = hn::LoadU(d, a.x[axis] + k), c = cell_of<Real>(x, a.cell[axis]);
+            hn::StoreU(c, d, cell[axis] + k);
+            const auto counts = hn::And(inside, hn::Eq(x, x));
+            low[axis] = hn::Min(low[axis], hn::IfThenElse(counts, c, low[axis]));
+            high[axis] = hn::Max(high[axis], hn::IfThenElse(counts, c, high[axis]));
+            largest = hn::Max(largest, hn::IfThenElseZero(counts, hn::Abs(x)));
         }
-        hn::Store(hn::Xor(hash, hn::ShiftRight<13>(hash)), di, hashes);
-        for (std::size_t l = 0; l < HWY_MIN(a.count - k, HWY_LANES(Real)); ++l)
-            bucket[k + l] = static_cast<std::uint32_t>(hashes[l]) & mask;
     }
-    return hn::GetLane(hn::MaxOfLanes(d, bound));
+    CellKeys<Real> keys{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        keys.low[axis] = hn::GetLane(hn::MinOfLanes(d, low[axis]));
+        keys.high[axis] = hn::GetLane(hn::MaxOfLanes(d, high[axis]));
+    }
+    keys.largest = hn::GetLane(hn::MaxOfLanes(d, largest));
+    return keys;
 }
 
-/// Pushes that are to be looked at, in order: of sorted point `of` by sorted point `by`. Whole numbers in Real, as
-/// vector instructions put them together.
 template <class Real>
-struct Pushes {
-    static constexpr std::size_t room = 4096, most = room - 2 * HWY_LANES(Real);
-    HWY_ALIGN Real of[room], by[room];
-    std::size_t count = 0;
+CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, std::uint32_t* key, Real* moving) {
+    const Tag<Real> d;
+    const hn::Rebind<std::int32_t, Tag<Real>> di;
+    CellKeys<Real> keys = find_cells(a, cell);
+    // In a box that is not too large a cell's key is its place there, and otherwise some sum. Few enough along each
+    // axis that a float tells them apart, few enough in all for an integer.
+    std::array<double, 3> along;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        along[axis] = static_cast<double>(keys.high[axis]) - static_cast<double>(keys.low[axis]) + 1;
+    keys.exact = along[0] < 8e6 && along[1] < 8e6 && along[2] < 8e6 && along[0] * along[1] * along[2] < 2e9;
+    std::array<std::int32_t, 3> factor{73856093, 19349663, 83492791};
+    if (keys.exact)
+        factor = {1, static_cast<std::int32_t>(along[0]), static_cast<std::int32_t>(along[0] * along[1])};
+
+    for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real)) {
+        auto sum = hn::Zero(di);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto from = hn::Set(d, keys.exact ? keys.low[axis] : Real(0));
+            const auto place = whole<Real>(hn::Sub(hn::LoadU(d, cell[axis] + k), from));
+            sum = hn::Add(sum, hn::Mul(place, hn::Set(di, factor[axis])));
+        }
+        hn::StoreU(sum, di, reinterpret_cast<std::int32_t*>(key + k));
+        const Lane3<Real> x = load3(a.x, static_cast<std::ptrdiff_t>(k));
+        hn::StoreInterleaved4(x.x, x.y, x.z, hn::Zero(d), d, moving + 4 * k);
+    }
+    return keys;
+}
+
+/// Points that are gone through together, whole buckets of them. Index: the place in the batch.
+struct Batch {
+    static constexpr std::size_t most_points = 512, most_words = 4096;
+    std::array<std::uint64_t, most_words>
+        near; ///< the others of its bucket near a point: bits, from the bucket's first
+    std::array<std::uint32_t, most_points> bucket_begin; ///< of each point's bucket
+    std::array<std::uint32_t, most_points> later;        ///< points behind it in its bucket
+    std::array<std::uint32_t, most_points> left;         ///< points that are not done yet
+    std::array<std::uint64_t, most_points> found;  ///< a point that is near others and, above, which of the next vector
+    std::array<std::uint32_t, most_points> active; ///< points with a bit, ascending
 };
 
-/// A bucket's points as separate coordinates, and their cells.
-template <class Real>
-struct BucketPoints {
-    static constexpr std::size_t most = 256;
-    HWY_ALIGN Real x[most], y[most], z[most], cell_x[most], cell_y[most], cell_z[most];
-};
+/// Buckets of so many points are pushed apart one by one: their bits do not fit into a batch.
+inline constexpr std::size_t too_crowded = Batch::most_points + 1;
 
-/// Fills in the points, and behind them some that are near none; returns whether they are all of one cell.
+/// Whether two points lie in the same cell.
 template <class Real>
-HWY_INLINE bool load_bucket(const CellPassArguments<Real>& a, std::size_t begin, std::size_t count, std::size_t all_end,
-                            BucketPoints<Real>& out) {
-    const Tag<Real> d;
-    bool one_cell = true;
-    for (std::size_t k = 0; k < count; k += HWY_LANES(Real)) {
-        Lane3<Real> x;
-        Lane<Real> unused;
-        const Real* sorted = a.sorted + 4 * (begin + k);
-        // Where this thread's points end, another's begin, and those are on the move.
-        HWY_ALIGN Real last[4 * HWY_LANES(Real)];
-        if (HWY_UNLIKELY(begin + k + HWY_LANES(Real) > all_end)) {
-            Real* behind = std::copy_n(sorted, 4 * HWY_MIN(count - k, HWY_LANES(Real)), last);
-            std::fill(behind, last + 4 * HWY_LANES(Real), Real(0));
-            sorted = last;
+HWY_INLINE bool same_cell(const CellPassArguments<Real>& a, std::size_t i, std::size_t j) {
+    if (HWY_LIKELY(a.exact))
+        return a.key[i] == a.key[j];
+    return a.cell[0][i] == a.cell[0][j] && a.cell[1][i] == a.cell[1][j] && a.cell[2][i] == a.cell[2][j];
+}
+
+/// Which of the vector of points from k + first on are near sorted point k, that has `later` more in its bucket.
+template <class Real>
+HWY_INLINE std::uint64_t near_bits(const CellPassArguments<Real>& a, std::size_t k, std::size_t first,
+                                   std::uint64_t later) {
+    const hn::ScalableTag<float> d;
+    const auto minus = [&](std::size_t axis) HWY_ATTR {
+        return hn::Sub(hn::LoadU(d, a.sorted[axis] + k + first), hn::Set(d, a.sorted[axis][k]));
+    };
+    const Lane3<float> v{minus(0), minus(1), minus(2)};
+    const std::uint64_t others = HWY_MIN(later + 1 - first, std::uint64_t{32});
+    return bits_of<float>(hn::Lt(dot3(v, v), hn::Set(d, a.reach_squared))) & ((std::uint64_t{1} << others) - 1);
+}
+
+/// Enters what was found of the vectors from `first` behind the points: for both points of each pair.
+template <bool one_word, class Real>
+HWY_INLINE void enter_found(const CellPassArguments<Real>& a, std::size_t begin, std::size_t found, std::size_t first,
+                            int word_bits, Batch& batch) {
+    for (std::size_t n = 0; n < found; ++n) {
+        const std::size_t k = batch.found[n] & 0xffffffffu, bucket = batch.bucket_begin[k];
+        std::uint64_t bits = batch.found[n] >> 32;
+        do {
+            const std::size_t q = k + first + static_cast<std::size_t>(std::countr_zero(bits));
+            bits &= bits - 1;
+            const std::uint64_t one = same_cell(a, a.order[begin + k], a.order[begin + q]) ? 1 : 0;
+            const auto enter = [&](std::size_t of, std::size_t other) {
+                const std::size_t word = one_word ? of : (of << word_bits) + (other - bucket) / 64;
+                batch.near[word] |= one << ((other - bucket) % 64);
+            };
+            enter(k, q);
+            enter(q, k);
+        } while (bits != 0);
+    }
+}
+
+/// Finds which points of each bucket are near each other before any is moved: sorted points from `begin` on. Returns
+/// how many points have others near them. Without a branch for each point, of which few are near others.
+template <bool one_word, class Real>
+HWY_INLINE std::size_t find_near(const CellPassArguments<Real>& a, std::size_t begin, std::size_t count, int word_bits,
+                                 Batch& batch) {
+    constexpr std::size_t step = HWY_LANES(float);
+    word_bits = one_word ? 0 : word_bits;
+    std::fill_n(batch.near.begin(), count << word_bits, std::uint64_t{0});
+    // Each point against the vector of points behind it, ...
+    std::size_t found = 0, left = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t bucket = a.key[a.order[begin + k]] & a.mask;
+        const std::uint32_t later = a.bucket_begin[bucket + 1] - static_cast<std::uint32_t>(begin + k + 1);
+        batch.bucket_begin[k] = a.bucket_begin[bucket] - static_cast<std::uint32_t>(begin);
+        batch.later[k] = later;
+        const std::uint64_t bits = near_bits(a, begin + k, 1, later);
+        batch.found[found] = bits << 32 | k;
+        found += bits != 0 ? 1 : 0;
+        batch.left[left] = static_cast<std::uint32_t>(k);
+        left += later > step ? 1 : 0;
+    }
+    enter_found<one_word>(a, begin, found, 1, word_bits, batch);
+    // ... those that have more against the next vector, and so on.
+    for (std::size_t first = 1 + step; left != 0; first += step) {
+        std::size_t still_left = 0;
+        found = 0;
+        for (std::size_t n = 0; n < left; ++n) {
+            const std::size_t k = batch.left[n];
+            const std::uint64_t bits = near_bits(a, begin + k, first, batch.later[k]);
+            batch.found[found] = bits << 32 | k;
+            found += bits != 0 ? 1 : 0;
+            batch.left[still_left] = static_cast<std::uint32_t>(k);
+            still_left += batch.later[k] >= first + step ? 1 : 0;
         }
-        hn::LoadInterleaved4(d, sorted, x.x, x.y, x.z, unused);
-        const Lane3<Real> cell{cell_of<Real>(x.x, a.cell[0]), cell_of<Real>(x.y, a.cell[1]),
-                               cell_of<Real>(x.z, a.cell[2])};
-        const auto inside = lanes_before<Real>(static_cast<std::ptrdiff_t>(count - k));
-        const auto far_away = hn::Set(d, std::numeric_limits<Real>::infinity());
-        store3(choose3<Real>(inside, x, {far_away, far_away, far_away}), Axes<Real>{out.x, out.y, out.z},
-               static_cast<std::ptrdiff_t>(k));
-        store3(cell, Axes<Real>{out.cell_x, out.cell_y, out.cell_z}, static_cast<std::ptrdiff_t>(k));
-        const Lane3<Real> first = set3(out.cell_x[0], out.cell_y[0], out.cell_z[0]);
-        const auto same = hn::And(hn::And(hn::Eq(cell.x, first.x), hn::Eq(cell.y, first.y)), hn::Eq(cell.z, first.z));
-        one_cell = one_cell && hn::AllFalse(d, hn::AndNot(same, inside));
+        left = still_left;
+        enter_found<one_word>(a, begin, found, first, word_bits, batch);
     }
-    return one_cell;
+    std::size_t active = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        std::uint64_t any = 0;
+        for (std::size_t w = 0; w < std::size_t{1} << word_bits; ++w)
+            any |= batch.near[(k << word_bits) + w];
+        batch.active[active] = static_cast<std::uint32_t>(k);
+        active += any != 0 ? 1 : 0;
+    }
+    return active;
 }
 
-/// Writes `own` and the lanes of `others` that the mask has, side by side. Returns how many.
+/// The pushes on one point, and where it goes, as PushSum has it. Three coordinates fit into a vector of four, which is
+/// faster where the machine has vectors so long and simple.
 template <class Real>
-HWY_INLINE std::size_t add_pushes(LaneMask<Real> mask, Lane<Real> own, Lane<Real> others, Real* of, Real* by) {
-    std::uint32_t bits = bits_of<Real>(mask);
-#if HWY_TARGET == HWY_AVX3
-    // Not Highway's Compress: for double its version of 2022 looks up a table that GCC copies at every call.
-    hn::StoreU(own, Tag<Real>(), of);
-    if constexpr (sizeof(Real) == 4)
-        _mm512_storeu_ps(by, _mm512_maskz_compress_ps(mask.raw, others.raw));
-    else
-        _mm512_storeu_pd(by, _mm512_maskz_compress_pd(mask.raw, others.raw));
-    return static_cast<std::size_t>(std::popcount(bits));
-#else
-    const Real point = hn::GetLane(own), first = hn::GetLane(others);
-    std::size_t count = 0;
-    for (; bits != 0; bits &= bits - 1, ++count) {
-        of[count] = point;
-        by[count] = first + static_cast<Real>(std::countr_zero(bits));
-    }
-    return count;
-#endif
-}
-
-/// Finds which points of a bucket may be pushed by which, without a branch for each: points of the same cell that are
-/// near each other before any is moved. One vector of points is the usual bucket, and one cell what is usually in it.
-template <bool one_vector, bool one_cell, class Real>
-HWY_INLINE void find_pushes(const CellPassArguments<Real>& a, const BucketPoints<Real>& points, std::size_t begin,
-                            std::size_t size, Pushes<Real>& out) {
-    const Tag<Real> d;
-    const auto reach = hn::Set(d, a.reach_squared), step = hn::Set(d, static_cast<Real>(HWY_LANES(Real)));
-    const auto first_others = hn::Iota(d, static_cast<Real>(begin));
-    std::size_t count = out.count;
-    for (std::size_t k = 0; k < size; ++k) {
-        const Lane3<Real> x = set3(points.x[k], points.y[k], points.z[k]);
-        const auto own = hn::Set(d, static_cast<Real>(begin + k));
-        auto others = first_others;
-        for (std::size_t first = 0; first < (one_vector ? 1 : size); first += HWY_LANES(Real)) {
-            const Lane3<Real> v =
-                subtract3(x, load3(ConstAxes<Real>{points.x, points.y, points.z}, static_cast<std::ptrdiff_t>(first)));
-            auto near = hn::AndNot(hn::Eq(others, own), hn::Lt(dot3(v, v), reach));
-            if constexpr (!one_cell) {
-                const Lane3<Real> c = load3(ConstAxes<Real>{points.cell_x, points.cell_y, points.cell_z},
-                                            static_cast<std::ptrdiff_t>(first));
-                const Lane3<Real> cell = set3(points.cell_x[k], points.cell_y[k], points.cell_z[k]);
-                near = hn::And(near, hn::And(hn::And(hn::Eq(c.x, cell.x), hn::Eq(c.y, cell.y)), hn::Eq(c.z, cell.z)));
-            }
-            count += add_pushes<Real>(near, own, others, out.of + count, out.by + count);
-            others = hn::Add(others, step);
-        }
-    }
-    out.count = count;
-}
-
-/// The pushes on one sorted point, and where it goes, as PushSum has it. Three coordinates fit into a vector of four,
-/// which is faster where the machine has vectors so long and simple.
-template <class Real>
-class SortedPush {
+class PointPush {
 public:
-    SortedPush(const CellPassArguments<Real>& a, std::size_t k) : a_(a), k_(k) {}
+    PointPush(const CellPassArguments<Real>& a, std::size_t i) : a_(a), x_(a.moving + 4 * i) {}
     HWY_INLINE void add(std::size_t q) {
-        const Real *x = a_.sorted + 4 * k_, *y = a_.sorted + 4 * q;
-        sum_.add(x[0] - y[0], x[1] - y[1], x[2] - y[2], a_.apart);
+        const Real* y = a_.moving + 4 * q;
+        sum_.add(x_[0] - y[0], x_[1] - y[1], x_[2] - y[2], a_.apart);
     }
     /// Moves the point and returns the number of pushes.
     HWY_INLINE std::size_t move() {
-        Real* x = a_.sorted + 4 * k_;
-        sum_.move(x[0], x[1], x[2], a_.substeps);
+        sum_.move(x_[0], x_[1], x_[2], a_.substeps);
         return sum_.count();
     }
 
 private:
     const CellPassArguments<Real>& a_;
-    std::size_t k_;
+    Real* x_;
     PushSum<Real> sum_;
 };
 
 template <>
-class SortedPush<float> {
+class PointPush<float> {
     using D = hn::FixedTag<float, 4>;
 
 public:
-    HWY_INLINE SortedPush(const CellPassArguments<float>& a, std::size_t k)
-        : a_(a), at_(a.sorted + 4 * k), x_(hn::Load(D(), at_)), sum_(hn::Zero(D())), count_(hn::Zero(D())) {}
+    HWY_INLINE PointPush(const CellPassArguments<float>& a, std::size_t i)
+        : a_(a), at_(a.moving + 4 * i), x_(hn::Load(D(), at_)), sum_(hn::Zero(D())), count_(hn::Zero(D())) {}
     HWY_INLINE void add(std::size_t q) {
         const D d;
-        const auto v = hn::Sub(x_, hn::Load(d, a_.sorted + 4 * q)), squares = hn::Mul(v, v);
+        const auto v = hn::Sub(x_, hn::Load(d, a_.moving + 4 * q)), squares = hn::Mul(v, v);
         const auto length =
             hn::Sqrt(hn::Add(hn::Add(hn::Broadcast<0>(squares), hn::Broadcast<1>(squares)), hn::Broadcast<2>(squares)));
         const auto apart = hn::Set(d, a_.apart);
@@ -205,58 +244,51 @@ private:
     hn::Vec<D> x_, sum_, count_;
 };
 
-/// Moves a sorted point, and the point it stands for, unless it is pinned. Returns the number of pushes.
+/// Moves a point, unless it is pinned. Returns the number of pushes.
 template <class Real>
-HWY_INLINE std::size_t move_sorted(const CellPassArguments<Real>& a, std::size_t k, SortedPush<Real>& push) {
-    const std::uint32_t i = a.order[k];
+HWY_INLINE std::size_t move_point(const CellPassArguments<Real>& a, std::size_t i, PointPush<Real>& push) {
     if (a.pinned[i])
         return 0;
     const std::size_t count = push.move();
     for (std::size_t axis = 0; axis < 3; ++axis)
-        a.x[axis][i] = a.sorted[4 * k + axis];
+        a.x[axis][i] = a.moving[4 * i + axis];
     return count;
 }
 
-/// Moves the points as the pushes say, one after the other. Returns how many really were near enough.
+/// Moves the batch's points that are near others, one after the other. Returns how many really were near enough.
 template <class Real>
-std::size_t apply_pushes(const CellPassArguments<Real>& a, Pushes<Real>& pushes) {
+HWY_INLINE std::size_t apply_pushes(const CellPassArguments<Real>& a, std::size_t begin, std::size_t active,
+                                    int word_bits, const Batch& batch) {
     std::size_t total = 0;
-    for (std::size_t at = 0; at < pushes.count;) {
-        const Real of = pushes.of[at];
-        const auto k = static_cast<std::size_t>(static_cast<std::int32_t>(of));
-        SortedPush<Real> push(a, k);
-        do {
-            push.add(static_cast<std::size_t>(static_cast<std::int32_t>(pushes.by[at])));
-        } while (++at < pushes.count && pushes.of[at] == of);
-        total += move_sorted(a, k, push);
+    for (std::size_t n = 0; n < active; ++n) {
+        const std::size_t k = batch.active[n], i = a.order[begin + k];
+        const std::uint32_t* bucket = a.order + begin + batch.bucket_begin[k];
+        PointPush<Real> push(a, i);
+        for (std::size_t w = 0; w < std::size_t{1} << word_bits; ++w)
+            for (std::uint64_t left = batch.near[(k << word_bits) + w]; left != 0; left &= left - 1)
+                push.add(bucket[64 * w + static_cast<std::size_t>(std::countr_zero(left))]);
+        total += move_point(a, i, push);
     }
-    pushes.count = 0;
     return total;
 }
 
-/// A bucket as the plain loop does it: for those with very many points.
+/// The rule as it is written, for buckets with very many points.
 template <class Real>
-HWY_NOINLINE std::size_t crowded_bucket(const CellPassArguments<Real>& a, std::size_t begin, std::size_t end) {
-    // Cells are those of the beginning, so they are found before a point moves.
+HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
     std::size_t total = 0;
-    std::uint32_t* group = a.scratch + begin;
-    for (std::size_t k = begin; k < end; ++k) { // the first point of the same cell stands for the cell
-        const auto cell = [&](std::size_t q, std::size_t axis) {
-            return std::floor(a.sorted[4 * q + axis] / a.cell[axis]);
-        };
-        group[k - begin] = static_cast<std::uint32_t>(end);
-        for (std::size_t q = begin; q <= k; ++q)
-            if (cell(q, 0) == cell(k, 0) && cell(q, 1) == cell(k, 1) && cell(q, 2) == cell(k, 2)) {
-                group[k - begin] = static_cast<std::uint32_t>(q);
-                break;
+    for (std::size_t k = a.begin; k < a.end; ++k) {
+        const std::uint32_t bucket = a.key[a.order[k]] & a.mask;
+        PointPush<Real> push(a, a.order[k]);
+        for (std::size_t q = a.bucket_begin[bucket]; q < a.bucket_begin[bucket + 1]; ++q) {
+            float square = 0;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const float v = a.sorted[axis][q] - a.sorted[axis][k];
+                square += v * v;
             }
-    }
-    for (std::size_t k = begin; k < end; ++k) {
-        SortedPush<Real> push(a, k);
-        for (std::size_t q = begin; q < end; ++q)
-            if (q != k && group[q - begin] == group[k - begin] && group[k - begin] != end)
-                push.add(q);
-        total += move_sorted(a, k, push);
+            if (square < a.reach_squared && q != k && same_cell(a, a.order[k], a.order[q]))
+                push.add(a.order[q]);
+        }
+        total += move_point(a, a.order[k], push);
     }
     return total;
 }
@@ -264,34 +296,22 @@ HWY_NOINLINE std::size_t crowded_bucket(const CellPassArguments<Real>& a, std::s
 /// A bucket may hold several cells; only points of the same cell push each other, and so each pair counts once.
 template <class Real>
 std::size_t cell_pass(const CellPassArguments<Real>& a) {
-    Pushes<Real> pushes;
-    BucketPoints<Real> points;
+    if (HWY_UNLIKELY(a.largest_bucket >= too_crowded))
+        return crowded_pass(a);
+    // Words of bits for each point: a power of two.
+    const int word_bits = a.largest_bucket <= 64 ? 0 : static_cast<int>(std::bit_width((a.largest_bucket - 1) / 64));
+    Batch batch;
     std::size_t total = 0;
-    std::size_t begin = a.first_bucket == 0 ? 0 : a.bucket_end[a.first_bucket - 1];
-    const std::size_t all_end = a.last_bucket == 0 ? 0 : a.bucket_end[a.last_bucket - 1];
-    for (std::size_t bucket = a.first_bucket; bucket < a.last_bucket; ++bucket) {
-        const std::size_t end = a.bucket_end[bucket], size = end - begin;
-        if (size > 1) {
-            if (pushes.count + size * size > Pushes<Real>::most)
-                total += apply_pushes(a, pushes);
-            if (HWY_UNLIKELY(size * size > Pushes<Real>::most || size > BucketPoints<Real>::most)) {
-                total += crowded_bucket(a, begin, end);
-            } else {
-                const bool one_cell = load_bucket(a, begin, size, all_end, points);
-                const bool one_vector = size <= HWY_LANES(Real);
-                if (HWY_LIKELY(one_cell && one_vector))
-                    find_pushes<true, true>(a, points, begin, size, pushes);
-                else if (one_cell)
-                    find_pushes<false, true>(a, points, begin, size, pushes);
-                else if (one_vector)
-                    find_pushes<true, false>(a, points, begin, size, pushes);
-                else
-                    find_pushes<false, false>(a, points, begin, size, pushes);
-            }
-        }
+    for (std::size_t begin = a.begin; begin < a.end;) {
+        std::size_t end = HWY_MIN(begin + Batch::most_points, a.end);
+        if (end < a.end)
+            end = a.bucket_begin[a.key[a.order[end]] & a.mask];
+        const std::size_t active = word_bits == 0 ? find_near<true>(a, begin, end - begin, 0, batch)
+                                                  : find_near<false>(a, begin, end - begin, word_bits, batch);
+        total += apply_pushes(a, begin, active, word_bits, batch);
         begin = end;
     }
-    return total + apply_pushes(a, pushes);
+    return total;
 }
 
 } // namespace clothlab::sim::HWY_NAMESPACE

@@ -52,7 +52,7 @@ const Kernels<Real>* table() {
                                            proximity<Real>,
                                            far_pairs<Real>,
                                            keep_pairs<Real>,
-                                           buckets<Real>,
+                                           cell_keys<Real>,
                                            cell_pass<Real>};
     return &kernels;
 }

@@ -137,19 +137,32 @@ struct CellArguments {
     std::array<Real, 3> cell; ///< m
 };
 
-/// The course's self-collision among points that lie sorted by cell.
+/// Of the cells that points lie in, and of their keys.
+template <class Real>
+struct CellKeys {
+    std::array<Real, 3> low, high; ///< bounds of the cells, whole numbers
+    Real largest;                  ///< coordinate of a point, m
+    bool exact;                    ///< no two cells have the same key
+};
+
+/// The course's self-collision among points that lie sorted by buckets of cells. Which may touch is looked up in single
+/// precision, whatever Real is, with a reach that allows for it.
 template <class Real>
 struct CellPassArguments {
-    Axes<Real> x;                    ///< of all points; moved
-    Real* sorted;                    ///< x, y, z, 0 of each point by bucket, moved along; four vectors more behind
-    const std::uint32_t* order;      ///< point of each sorted entry
-    const std::uint32_t* bucket_end; ///< per bucket; it begins where the one before ends
-    std::uint32_t* scratch;          ///< per sorted entry
-    std::size_t first_bucket, last_bucket; ///< half open
-    const std::uint8_t* pinned;            ///< per point
-    std::array<Real, 3> cell;              ///< m
-    Real apart;                            ///< m, twice the thickness
-    Real reach_squared; ///< m²: points that are not nearer at the beginning do not get nearer than `apart`
+    Axes<Real> x;                      ///< of all points; moved
+    Real* moving;                      ///< the same as x, y, z, 0 of each point
+    ConstAxes<float> sorted;           ///< as they were, by bucket, from some origin; a vector of padding behind
+    const std::uint32_t* order;        ///< point of each sorted entry; ascending in each bucket
+    const std::uint32_t* key;          ///< of each point's cell
+    ConstAxes<Real> cell;              ///< of each point
+    bool exact;                        ///< no two cells have the same key
+    std::uint32_t mask;                ///< which bits of the key tell the bucket
+    const std::uint32_t* bucket_begin; ///< per bucket, and where the last one ends
+    std::size_t largest_bucket;        ///< points
+    std::size_t begin, end;            ///< sorted entries of whole buckets
+    const std::uint8_t* pinned;        ///< per point
+    Real apart;                        ///< m, twice the thickness
+    float reach_squared; ///< m²: points that are not nearer at the beginning do not get nearer than `apart`
     Real substeps;
 };
 
@@ -170,8 +183,9 @@ struct Kernels {
     /// Keeps, in order, those of `count` pairs whose points are not at least the reach apart and lie in the same cell;
     /// returns how many.
     std::size_t (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
-    /// Finds the hash bucket of each point's cell, out of mask + 1, a power of two. Returns the largest coordinate.
-    Real (*buckets)(const CellArguments<Real>&, std::uint32_t mask, std::uint32_t* bucket);
+    /// Finds the cell of each point, whole numbers in Real, and a key of it, a vector of padding behind each; and
+    /// copies the points to `moving` as x, y, z, 0.
+    CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, const Axes<Real>& cell, std::uint32_t* key, Real* moving);
     /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
     std::size_t (*cell_pass)(const CellPassArguments<Real>&);
 };

@@ -152,15 +152,20 @@ TEST_CASE("A force of minus zero stays one: such scenes are left to the plain lo
     }
 }
 
-TEST_CASE("Thousands of points in one cell, or at one place, push each other as the plain loops have it", "[threads]") {
+TEST_CASE("Thousands of points in one cell, in few or at one place push each other as the plain loops have it",
+          "[threads]") {
     sim::Description description;
     description.cloth.num_width_points = description.cloth.num_height_points = 40;
-    description.cloth.thickness = 0.001;
-    const double reach = GENERATE(0.0, 0.001, 0.02);
+    description.cloth.thickness = 0.004;
+    // At one place, in one cell, in some cells with hundreds each, and in many.
+    const double reach = GENERATE(0.0, 0.001, 0.02, 0.15, 0.3);
+    const bool with_nan = GENERATE(false, true); // which is in no cell
     Sheet<float> plain(description, exactly(sim::InstructionSet::scalar, 1));
     sim::SplitMix64 random(5);
     for (std::size_t i = 0; i < plain.points(); ++i)
         plain.place(i, uniform_point(random, 0.01, 0.01 + reach));
+    if (with_nan)
+        plain.place(700, {std::numeric_limits<double>::quiet_NaN(), 0.01, 0.01});
     const sim::State<float> before = plain.state;
     const std::size_t expected = sim::resolve_self_collision(plain.model, plain.state, plain.work);
     REQUIRE((reach > 0) == (expected > 0));
