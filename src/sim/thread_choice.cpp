@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace clothlab::sim {
 namespace {
@@ -9,8 +10,10 @@ namespace {
 /// Each candidate is timed over so many steps, in so many rounds, and its fastest block counts: what else the machine
 /// does only ever makes one slower.
 constexpr int block = 8, rounds = 4;
-/// Contacts come and go: look again after so many steps.
-constexpr std::uint64_t steps_between = 8192;
+/// Contacts come and go. A run looks again after so many steps at the latest, and before, where steps take so many
+/// times as long as they did, or so many times less: after `soon` steps, and later each time that it brings nothing.
+constexpr int steps_between = 8192, soon = 512;
+constexpr double another = 1.4;
 /// More threads have to be worth their cores.
 constexpr double worth = 0.95;
 /// While several threads are used, so many steps at a time are timed; if they take this much longer than with one
@@ -33,27 +36,31 @@ void ThreadChoice::restart() {
     measuring_ = candidates_.size() > 1;
     now_ = 0;
     step_ = round_ = 0;
+    seconds_ = 0;
     std::fill(best_.begin(), best_.end(), std::numeric_limits<double>::infinity());
 }
 
 void ThreadChoice::end_step() {
     if (candidates_.size() == 1)
         return;
-    const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start_).count(); };
+    seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
     if (!measuring_) {
-        if (--until_restart_ == 0)
+        if (++since_ >= steps_between)
             return restart();
-        if (now_ == 0 || ++step_ < watched)
+        if (++step_ < watched)
             return;
         step_ = 0;
-        if (seconds() / watched > patience * best_[0] / block)
+        const double now = std::exchange(seconds_, 0) / watched, then = best_[now_] / block;
+        if (now_ != 0 && now > patience * best_[0] / block)
             now_ = 0;
+        else if (since_ >= patient_for_ && (now > another * then || now * another < then))
+            restart();
         return;
     }
     if (++step_ < block)
         return;
     step_ = 0;
-    best_[now_] = std::min(best_[now_], seconds());
+    best_[now_] = std::min(best_[now_], std::exchange(seconds_, 0));
     if (++now_ < candidates_.size())
         return;
     now_ = 0;
@@ -62,8 +69,10 @@ void ThreadChoice::end_step() {
     for (std::size_t i = 1; i < best_.size(); ++i)
         if (best_[i] < worth * best_[now_])
             now_ = i;
+    patient_for_ = now_ == before_ ? std::min(2 * patient_for_, steps_between) : soon;
+    before_ = now_;
     measuring_ = false;
-    until_restart_ = steps_between;
+    since_ = 0;
 }
 
 } // namespace clothlab::sim

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 namespace clothlab::sim {
@@ -17,7 +17,7 @@ public:
     int threads() const { return candidates_[now_]; }
     /// To be called before and after each step.
     void begin_step() {
-        if (candidates_.size() > 1 && step_ == 0)
+        if (candidates_.size() > 1)
             start_ = Clock::now();
     }
     void end_step();
@@ -31,8 +31,11 @@ private:
     std::size_t now_ = 0;
     bool measuring_ = false;
     int step_ = 0, round_ = 0;
-    std::uint64_t until_restart_ = 0;
-    Clock::time_point start_; ///< of the block under way
+    int since_ = 0;           ///< steps since it was measured
+    int patient_for_ = 256;   ///< steps at least until it is measured again
+    std::size_t before_ = 0;  ///< what was measured to be best the last time
+    double seconds_ = 0;      ///< that the steps of the block under way have taken, without what was between them
+    Clock::time_point start_; ///< of the step under way
 };
 
 } // namespace clothlab::sim

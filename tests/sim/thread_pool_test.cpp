@@ -105,3 +105,33 @@ TEST_CASE("A run whose threads are held up goes on with one") {
         step();
     REQUIRE(choice.threads() == 1);
 }
+
+TEST_CASE("A run whose steps have become another work looks again before long") {
+    ThreadChoice choice(2, true);
+    bool folded = false;
+    const auto step = [&] {
+        const int microseconds = folded ? (choice.threads() == 1 ? 4000 : 1000) : (choice.threads() == 1 ? 100 : 1000);
+        choice.begin_step();
+        std::this_thread::sleep_for(std::chrono::microseconds(microseconds));
+        choice.end_step();
+    };
+    for (int i = 0; i < 2 * 4 * 8 + 600; ++i)
+        step();
+    REQUIRE(choice.threads() == 1);
+    folded = true;
+    for (int i = 0; i < 2 * 4 * 8 + 64; ++i)
+        step();
+    REQUIRE(choice.threads() == 2);
+}
+
+TEST_CASE("What passes between two steps is not their time: a run at the pace of the clock keeps its threads") {
+    ThreadChoice choice(2, true);
+    for (int i = 0; i < 2 * 4 * 8 + 200; ++i) {
+        choice.begin_step();
+        std::this_thread::sleep_for(std::chrono::microseconds(choice.threads() == 1 ? 500 : 200));
+        choice.end_step();
+        if (i % 20 == 19)
+            std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    }
+    REQUIRE(choice.threads() == 2);
+}
