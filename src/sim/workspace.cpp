@@ -26,6 +26,8 @@ void prepare(const Model<Real>& model, Workspace<Real>& work) {
         work.pin_previous.resize(model.pins.size());
         work.proximity.resize(threads);
         work.counts.resize(2 * threads);
+        if (model.rules.limit == LimitRule::cs184)
+            make_bands(model, work.bands);
     }
     if (model.rules.self_collision != SelfCollisionRule::none)
         prepare_self_collision(model, work);
@@ -50,7 +52,7 @@ std::size_t memory_bytes(const Workspace<Real>& work) {
                         bytes_of(s.far_pairs) + bytes_of(s.pairs) + bytes_of(s.cursor) + bytes_of(s.active) +
                         bytes_of(s.partners) + bytes_of(s.key) + bytes_of(s.order) + bytes_of(s.cell_end) +
                         bytes_of(s.sorted) + bytes_of(s.run_end) + bytes_of(s.bucket_begin) +
-                        bytes_of(s.sorted_single) + s.tree.bytes();
+                        bytes_of(s.sorted_single) + s.tree.bytes() + work.bands.bytes();
     for (const Vec3Array<Real>& array : work.arrays)
         bytes += array.bytes();
     for (const AlignedVector<Real>& scratch : work.sweep)

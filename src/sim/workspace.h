@@ -9,6 +9,7 @@
 #include "sim/collision/self_collision_work.h"
 #include "sim/execution.h"
 #include "sim/kernels/kernels.h"
+#include "sim/limit_bands.h"
 #include "sim/model.h"
 #include "sim/state.h"
 #include "sim/thread_choice.h"
@@ -33,7 +34,8 @@ struct Workspace {
     Vec3Array<Real> before_stages;          ///< m; positions before contacts and limit, of methods with velocities
     std::vector<AlignedVector<Real>> sweep; ///< per thread
     std::vector<std::array<Real, 3>> pin_previous; ///< m, of the pins, while the points are moved
-    bool limit_was_idle = false;                   ///< the last sweep shortened nothing
+    std::size_t last_shortened = 1;                ///< springs that the last sweep shortened; any but 0 at first
+    LimitBands<Real> bands;                        ///< of the stretch limit, where they may pay
     SelfCollisionWork<Real> self_collision;
     std::vector<ProximityArguments<Real>> proximity; ///< per thread
     std::vector<std::size_t> counts;                 ///< two per thread

@@ -20,6 +20,7 @@
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 #include "sim/kernels/contact_cells-inl.h"
 #include "sim/kernels/contacts-inl.h"
+#include "sim/kernels/limit_bands-inl.h"
 #include "sim/kernels/near_pairs-inl.h"
 #include "sim/kernels/spring_sweep-inl.h"
 #include "sim/kernels/stretch_limit-inl.h"
@@ -49,6 +50,7 @@ const Kernels<Real>* table() {
                                            plane_contacts<Real>,
                                            first_over_limit<Real>,
                                            limit<Real>,
+                                           limit_band<Real>,
                                            proximity<Real>,
                                            far_pairs<Real>,
                                            keep_pairs<Real>,

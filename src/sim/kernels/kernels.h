@@ -96,6 +96,18 @@ struct LimitArguments {
     bool filter;                ///< the rest lengths may be squared (may_filter_limit)
 };
 
+/// One band of rows of the limit's wavefront (sim/limit_bands.h).
+template <class Real>
+struct BandArguments {
+    Axes<Real> points; ///< the band's first row, of all points
+    Axes<Real> x;      ///< memory for a copy: slot 0 of the first row
+    const Real* free;  ///< as x: 1 for points that may be moved and 0 for others; null where all may
+    const Real* rest;  ///< m, by slot, spring and row, infinite where there is no spring; null where all are alike
+    std::array<Real, stencil_size> rest_of_all; ///< m, of alike springs
+    const std::uint32_t* exists;                ///< alike springs: by slot and spring a bit for each row
+    std::ptrdiff_t columns, above, rows;        ///< rows above that springs reach, rows of the band
+};
+
 /// Two points, by their indices.
 using PointPair = std::array<std::uint32_t, 2>;
 
@@ -177,6 +189,8 @@ struct Kernels {
     std::size_t (*first_over_limit)(const LimitArguments<Real>&, std::size_t from, std::size_t to);
     /// The sweep, when it is known of all points from the third row on but before `from` that none is over the limit.
     std::size_t (*limit)(const LimitArguments<Real>&, std::size_t from);
+    /// The sweep over one band. Returns how many springs it shortened.
+    std::size_t (*limit_band)(const BandArguments<Real>&);
     void (*proximity)(ProximityArguments<Real>&);
     /// Returns how many pairs there are; most_pairs + 1 when there are more than most_pairs.
     std::size_t (*far_pairs)(const FarPairArguments<Real>&);

@@ -128,7 +128,12 @@ TEST_CASE("Contacts by kernels have the bits of the plain loops", "[threads]") {
 
 TEST_CASE("The stretch limit by kernels has the bits of the plain sweep, when few springs are long and when most are",
           "[threads]") {
-    require_same_stages([](auto& sheet) { return sim::limit_stretch(sheet.model, sheet.state, sheet.work); });
+    require_same_stages([](auto& sheet) {
+        std::size_t shortened = 0;
+        for (int i = 0; i < 3; ++i) // what the first sweep finds decides how the next ones go about it
+            shortened += sim::limit_stretch(sheet.model, sheet.state, sheet.work);
+        return shortened;
+    });
 }
 
 TEST_CASE("Self-collision by kernels has the bits of the plain loops", "[threads]") {
