@@ -15,9 +15,14 @@ std::size_t first_over_limit(const Model<Real>& model, Workspace<Real>& work, co
     return *std::min_element(work.counts.begin(), work.counts.begin() + ranges);
 }
 
-/// From one shortened spring in so many points on the wavefront is the faster way: it costs some two and a half times
-/// as much as a sweep that shortens nothing, and the same whatever it shortens.
-constexpr std::size_t many_shortened = 8;
+/// Whether the wavefront is the faster way for a sweep that shortens so many springs. What it costs goes by slots, of
+/// which short rows have more for each point, and hardly depends on what it shortens; measured from 50 x 50 to 512 x
+/// 512.
+template <class Real>
+bool bands_pay(const Grid<Real>& grid, std::size_t shortened) {
+    const auto slots = static_cast<std::size_t>(grid.columns + band_lag * (band_rows - 1));
+    return shortened > static_cast<std::size_t>(grid.rows) * slots / 16;
+}
 
 /// The sweep as a wavefront, band by band.
 template <class Real>
@@ -56,7 +61,7 @@ std::size_t limit_stretch(const Model<Real>& model, State<Real>& state, Workspac
         state.position.axes(), grid.points(),       static_cast<std::size_t>(grid.columns),
         rest_lengths(grid),    model.pinned.data(), may_filter_limit(grid.shortest) && may_filter_limit(grid.longest)};
     std::size_t& shortened = work.last_shortened;
-    if (work.kernels && arguments.filter && work.bands.grid && shortened > arguments.points / many_shortened) {
+    if (work.kernels && arguments.filter && work.bands.grid && bands_pay(grid, shortened)) {
         shortened = limit_by_bands(arguments, work);
     } else if (work.kernels && arguments.filter) {
         const bool look_first = shortened == 0 && work.pool && work.choice.threads() > 1;
