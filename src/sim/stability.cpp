@@ -31,7 +31,8 @@ double any_pose(const std::array<bool, spring_kinds>& enabled) {
 }
 
 /// A start with much of the fastest modes: neighbours against each other along rows and along columns, and noise.
-std::vector<double> start_vector(const SpringOperator& k, int columns) {
+template <class Real>
+std::vector<double> start_vector(const SpringOperator<Real>& k, int columns) {
     SplitMix64 random(1);
     std::vector<double> v(k.size());
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -49,7 +50,8 @@ std::vector<double> start_vector(const SpringOperator& k, int columns) {
 /// reorthogonalisation: what that loses are copies of eigenvalues found already, which are never too large. To the
 /// Ritz value comes its error bound, the residual or, once the next Ritz value is farther away, residual² / gap
 /// (Parlett, theorem 11.7.1).
-double largest_eigenvalue(const SpringOperator& k, int columns) {
+template <class Real>
+double largest_eigenvalue(const SpringOperator<Real>& k, int columns) {
     std::vector<double> v = start_vector(k, columns), previous(v.size(), 0.0), w(v.size());
     const auto norm = [](const std::vector<double>& x) {
         double sum = 0;
@@ -174,7 +176,7 @@ StabilityMargin stability_margin(const Model<Real>& model, const Vec3Array<Real>
     for (const Real* axis : position.axes())
         if (!std::all_of(axis, axis + position.size(), [](Real v) { return std::isfinite(v); }))
             return margin_of(model, infinity, infinity);
-    const SpringOperator k(model, position);
+    const SpringOperator<Real> k(model, position);
     const double bound = std::min(any_pose(model.enabled), k.bound());
     return margin_of(model, std::clamp(largest_eigenvalue(k, model.grid->columns), 0.0, bound), bound);
 }

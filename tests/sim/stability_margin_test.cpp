@@ -6,6 +6,7 @@
 
 #include "sim/integrators/integrator.h"
 #include "sim/simulation.h"
+#include "sim/spring_operator.h"
 #include "sim/stability.h"
 #include "support/sheet.h"
 #include "support/spring_hessian.h"
@@ -97,6 +98,38 @@ TEMPLATE_TEST_CASE("Margin: Eigen's largest eigenvalue of the whole matrix, in a
     REQUIRE(margin.omega <= truth * (1 + 1e-4));
     REQUIRE(margin.omega <= margin.omega_bound);
     REQUIRE(in_springs(sheet, margin.omega_bound) <= 12 * (1 + 1e-12));
+}
+
+TEST_CASE("Springs of a cloth too large to keep them act as their Hessians") {
+    sim::Description description = bare_cloth(520, 510);
+    description.cloth.pinned = {{0, 0}, {7, 9}};
+    Sheet<float> sheet(description);
+    tangle(sheet, 0.3, 1);
+    sim::SplitMix64 random(2);
+    std::vector<double> v(3 * sheet.points()), product(v.size()), expected(v.size(), 0.0);
+    for (std::size_t i = 0; i < v.size(); ++i)
+        v[i] = sheet.model.pinned[i / 3] ? 0 : random.unit();
+    sim::SpringOperator<float>(sheet.model, sheet.state.position).apply(v, product);
+    sim::for_each_spring(520, 510, [&](std::size_t a, std::size_t b, std::size_t s) {
+        const sim::Vec3 from = sheet.position(a), to = sheet.position(b);
+        const std::array<double, 3> d{to.x - from.x, to.y - from.y, to.z - from.z};
+        const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), k = s < 4 ? 1 : 0.2;
+        const double t = 1 - static_cast<double>(sheet.model.grid->rest_length(s, a)) / length;
+        for (std::size_t row = 0; row < 3; ++row)
+            for (std::size_t column = 0; column < 3; ++column) {
+                const double n = d[row] * d[column] / (length * length);
+                const double f = k * (n + t * ((row == column) - n)) * (v[3 * b + column] - v[3 * a + column]);
+                expected[3 * a + row] -= sheet.model.pinned[a] ? 0 : f;
+                expected[3 * b + row] += sheet.model.pinned[b] ? 0 : f;
+            }
+    });
+    double error = 0, largest = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        error = std::max(error, std::abs(product[i] - expected[i]));
+        largest = std::max(largest, std::abs(expected[i]));
+    }
+    REQUIRE(largest > 1);
+    REQUIRE(error < 1e-12 * largest);
 }
 
 TEST_CASE("A pose stretched at random comes close to 12 ks/m, and none goes beyond") {

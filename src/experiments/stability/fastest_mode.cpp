@@ -28,7 +28,8 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 std::optional<std::vector<sim::Vec3>> fastest_mode(const sim::Description& description) {
     const auto grid = std::make_shared<const sim::Grid<double>>(sim::make_grid<double>(description));
     const sim::Model<double> model = sim::make_model<double>(description, grid);
-    const sim::SpringOperator k(model, sim::start_positions<double>(description));
+    const sim::Vec3Array<double> start = sim::start_positions<double>(description);
+    const sim::SpringOperator<double> k(model, start);
     std::vector<double> v, w(k.size());
     for (const sim::Vec3& p : noise(description))
         v.insert(v.end(), {p.x, p.y, p.z});
