@@ -89,8 +89,8 @@ CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, s
 /// Points that are gone through together, whole buckets of them. Index: the place in the batch.
 struct Batch {
     static constexpr std::size_t most_points = 512, most_words = 4096;
-    std::array<std::uint64_t, most_words>
-        near; ///< the others of its bucket near a point: bits, from the bucket's first
+    /// Of each point the others of its bucket that are near it: bits, counted from the bucket's first point.
+    std::array<std::uint64_t, most_words> near;
     std::array<std::uint32_t, most_points> bucket_begin; ///< of each point's bucket
     std::array<std::uint32_t, most_points> later;        ///< points behind it in its bucket
     std::array<std::uint32_t, most_points> left;         ///< points that are not done yet
