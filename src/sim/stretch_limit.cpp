@@ -16,12 +16,12 @@ std::size_t first_over_limit(const Model<Real>& model, Workspace<Real>& work, co
 }
 
 /// Whether the wavefront is the faster way for a sweep that shortens so many springs. What it costs goes by slots, of
-/// which short rows have more for each point, and hardly depends on what it shortens; measured from 50 x 50 to 512 x
-/// 512.
+/// which short rows have more for each point, and by the size of Real, and hardly depends on what it shortens; measured
+/// from 50 x 50 to 512 x 512.
 template <class Real>
 bool bands_pay(const Grid<Real>& grid, std::size_t shortened) {
     const auto slots = static_cast<std::size_t>(grid.columns + band_lag * (band_rows - 1));
-    return shortened > static_cast<std::size_t>(grid.rows) * slots / 16;
+    return 64 * shortened > static_cast<std::size_t>(grid.rows) * slots * sizeof(Real);
 }
 
 /// The sweep as a wavefront, band by band.

@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace clothlab::sim::HWY_NAMESPACE {
 
-/// Cell coordinates as integers, for hashing only: what is out of range goes to some integer.
+/// Whole numbers as integers; what is out of range goes to some integer.
 template <class Real>
 HWY_INLINE hn::Vec<hn::Rebind<std::int32_t, Tag<Real>>> whole(Lane<Real> cell) {
     const hn::Rebind<std::int32_t, Tag<Real>> di;
@@ -97,9 +97,6 @@ struct Batch {
     std::array<std::uint64_t, most_points> found;  ///< a point that is near others and, above, which of the next vector
     std::array<std::uint32_t, most_points> active; ///< points with a bit, ascending
 };
-
-/// Buckets of so many points are pushed apart one by one: their bits do not fit into a batch.
-inline constexpr std::size_t too_crowded = Batch::most_points + 1;
 
 /// Whether two points lie in the same cell.
 template <class Real>
@@ -296,8 +293,8 @@ HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
 /// A bucket may hold several cells; only points of the same cell push each other, and so each pair counts once.
 template <class Real>
 std::size_t cell_pass(const CellPassArguments<Real>& a) {
-    if (HWY_UNLIKELY(a.largest_bucket >= too_crowded))
-        return crowded_pass(a);
+    if (HWY_UNLIKELY(a.largest_bucket > Batch::most_points))
+        return crowded_pass(a); // its bits do not fit into a batch
     // Words of bits for each point: a power of two.
     const int word_bits = a.largest_bucket <= 64 ? 0 : static_cast<int>(std::bit_width((a.largest_bucket - 1) / 64));
     Batch batch;
