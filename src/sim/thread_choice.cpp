@@ -10,10 +10,14 @@ namespace {
 /// Each candidate is timed over so many steps, in so many rounds, and its fastest block counts: what else the machine
 /// does only ever makes one slower.
 constexpr int block = 8, rounds = 4;
-/// Contacts come and go. A run looks again after so many steps at the latest, and before, where steps take so many
-/// times as long as they did, or so many times less: after `soon` steps, and later each time that it brings nothing.
-constexpr int steps_between = 8192, soon = 512;
+/// Contacts come and go. A run looks again after so many steps at the latest, and before, where steps have become
+/// another work: after `soon` steps, and later each time that it brings nothing. They have where they take so many
+/// times as long as they did, or so many times less, without a break for so many times `watched` steps: what else the
+/// machine does comes and goes.
+constexpr int steps_between = 8192, soon = 512, without_break = 8;
 constexpr double another = 1.4;
+/// A block that takes so many times as long as with one thread is not tried again: its threads are held up.
+constexpr double hopeless = 3;
 /// More threads have to be worth their cores.
 constexpr double worth = 0.95;
 /// While several threads are used, so many steps at a time are timed; if they take this much longer than with one
@@ -51,16 +55,20 @@ void ThreadChoice::end_step() {
             return;
         step_ = 0;
         const double now = std::exchange(seconds_, 0) / watched, then = best_[now_] / block;
+        round_ = now > another * then || now * another < then ? round_ + 1 : 0;
         if (now_ != 0 && now > patience * best_[0] / block)
             now_ = 0;
-        else if (since_ >= patient_for_ && (now > another * then || now * another < then))
+        else if (since_ >= patient_for_ && round_ >= without_break)
             restart();
         return;
     }
     if (++step_ < block)
         return;
     step_ = 0;
-    best_[now_] = std::min(best_[now_], std::exchange(seconds_, 0));
+    const double took = std::exchange(seconds_, 0);
+    if (took > hopeless * best_[0])
+        round_ = rounds - 1; // the last one
+    best_[now_] = std::min(best_[now_], took);
     if (++now_ < candidates_.size())
         return;
     now_ = 0;
@@ -72,7 +80,7 @@ void ThreadChoice::end_step() {
     patient_for_ = now_ == before_ ? std::min(2 * patient_for_, steps_between) : soon;
     before_ = now_;
     measuring_ = false;
-    since_ = 0;
+    round_ = since_ = 0;
 }
 
 } // namespace clothlab::sim

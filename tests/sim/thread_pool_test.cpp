@@ -119,7 +119,7 @@ TEST_CASE("A run whose steps have become another work looks again before long") 
         step();
     REQUIRE(choice.threads() == 1);
     folded = true;
-    for (int i = 0; i < 2 * 4 * 8 + 64; ++i)
+    for (int i = 0; i < 9 * 32 + 2 * 4 * 8; ++i)
         step();
     REQUIRE(choice.threads() == 2);
 }
