@@ -170,6 +170,7 @@ void TimelineDesk::carry_out(const ui::SetCacheBudget& r) {
     timeline::CacheOptions options;
     options.budget = r.bytes;
     options.least_reach_s = r.least_reach_s;
+    options.disk = r.disk;
     simulation_.set_cache(options);
 }
 

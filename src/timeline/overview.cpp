@@ -20,6 +20,7 @@ BranchInfo info(const Timeline& timeline, const Branch& branch) {
     info.stem = branch.stem;
     info.keyframes = branch.keyframes.size();
     info.memory = memory(branch);
+    info.on_disk = on_disk(branch);
     if (!branch.changes.empty() && branch.changes.front().step == branch.fork_step) {
         info.before = branch.start;
         info.after = branch.changes.front().description;
@@ -63,6 +64,9 @@ Overview overview(const Player& player) {
     o.bookmarks = timeline.bookmarks();
     o.memory = player.memory();
     o.budget = player.options().budget;
+    o.on_disk = timeline.on_disk();
+    o.disk = player.options().disk;
+    o.disk_trouble = timeline.disk_trouble();
     o.least_reach_s = player.options().least_reach_s;
     o.line = player.line();
     if (o.line == 0)

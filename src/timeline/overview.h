@@ -22,6 +22,7 @@ struct BranchInfo {
     bool stem = false;   ///< deleted, but its children come from it
     std::size_t keyframes = 0;
     std::size_t memory = 0;       ///< bytes
+    std::size_t on_disk = 0;      ///< bytes
     DescriptionPtr before, after; ///< what its first change changed; null for a root and a fork without a change
 };
 
@@ -56,6 +57,8 @@ struct Overview {
     std::vector<MarkInfo> marks;
     std::vector<Sample> samples;        ///< ascending by frame, with gaps where states have been dropped
     std::size_t memory = 0, budget = 0; ///< bytes
+    std::size_t on_disk = 0, disk = 0;  ///< bytes
+    std::string disk_trouble;           ///< Timeline::disk_trouble
     double least_reach_s = 0;           ///< CacheOptions
 };
 

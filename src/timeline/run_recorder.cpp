@@ -6,7 +6,7 @@ namespace clothlab::timeline {
 namespace {
 
 /// The file has the states; the player needs but the newest one.
-constexpr CacheOptions little{.budget = std::size_t{4} << 20, .seek_s = 1, .least_reach_s = 0};
+const CacheOptions little{.budget = std::size_t{4} << 20, .seek_s = 1, .least_reach_s = 0};
 
 template <class Write>
 auto recording_errors(Write write) {

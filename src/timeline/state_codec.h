@@ -34,6 +34,8 @@ public:
     virtual std::vector<std::byte> compressed() const = 0;
     /// Bytes of memory that it takes.
     virtual std::size_t memory() const = 0;
+    /// Bytes of a disk that are free again when it goes (ScratchFile).
+    virtual std::size_t on_disk() const { return 0; }
 };
 using StoredStatePtr = std::shared_ptr<const StoredState>;
 

@@ -33,6 +33,17 @@ std::size_t memory(const Keyframe& keyframe) {
     return sizeof keyframe + (keyframe.state ? keyframe.state->memory() : 0);
 }
 
+std::size_t on_disk(const Keyframe& keyframe) {
+    return keyframe.state ? keyframe.state->on_disk() : 0;
+}
+
+std::size_t on_disk(const Branch& branch) {
+    std::size_t sum = 0;
+    for (const Keyframe& keyframe : branch.keyframes)
+        sum += on_disk(keyframe);
+    return sum;
+}
+
 std::size_t memory_but_keyframes(const Branch& branch) {
     std::size_t sum = sizeof branch + branch.samples.size() * sizeof(Sample) + branch.marks.size() * sizeof(Mark) +
                       branch.clocks.size() * sizeof(FrameClock);
@@ -164,7 +175,7 @@ void Timeline::add(Branch branch) {
         throw std::invalid_argument("a branch that does not fit");
     next_branch_ = std::max(next_branch_, branch.id + 1);
     for (const Keyframe& keyframe : branch.keyframes)
-        stored_ += timeline::memory(keyframe);
+        count(keyframe);
     branches_.push_back(std::move(branch));
 }
 
@@ -187,7 +198,7 @@ void Timeline::remove(BranchId id) {
     if (!shared) {
         const BranchId parent = branch->parent;
         for (const Keyframe& keyframe : branch->keyframes)
-            stored_ -= timeline::memory(keyframe);
+            discount(keyframe);
         branches_.erase(branches_.begin() + (branch - branches_.data()));
         const Branch* above = find(parent);
         if (above && above->stem)
@@ -198,7 +209,7 @@ void Timeline::remove(BranchId id) {
     const std::uint64_t last_frame = timeline::frame_time(*branch, *shared).frame;
     branch->end = std::min(branch->end, *shared);
     for (auto k = first_after(branch->keyframes, branch->end); k != branch->keyframes.end(); ++k)
-        stored_ -= timeline::memory(*k);
+        discount(*k);
     branch->keyframes.erase(first_after(branch->keyframes, branch->end), branch->keyframes.end());
     if (!branch->keyframes.empty())
         branch->keyframes.back().until = std::min(branch->keyframes.back().until, branch->end);
@@ -214,7 +225,7 @@ void Timeline::remove(BranchId id) {
 void Timeline::clear() {
     branches_.clear();
     bookmarks_.clear();
-    stored_ = 0;
+    stored_ = on_disk_ = 0;
     revise();
 }
 
@@ -244,16 +255,26 @@ const Bookmark* Timeline::find_bookmark(std::uint32_t id) const {
     return found == bookmarks_.end() ? nullptr : &*found;
 }
 
+void Timeline::count(const Keyframe& keyframe) {
+    stored_ += timeline::memory(keyframe);
+    on_disk_ += timeline::on_disk(keyframe);
+}
+
+void Timeline::discount(const Keyframe& keyframe) {
+    stored_ -= timeline::memory(keyframe);
+    on_disk_ -= timeline::on_disk(keyframe);
+}
+
 void Timeline::store(BranchId id, Keyframe keyframe) {
     Branch* branch = find(id);
     if (!branch)
         throw std::out_of_range("there is no branch " + std::to_string(id));
-    stored_ += timeline::memory(keyframe);
+    count(keyframe);
     auto after = first_after(branch->keyframes, keyframe.step);
     if (after != branch->keyframes.begin()) {
         Keyframe& before = *std::prev(after);
         if (before.step == keyframe.step) {
-            stored_ -= timeline::memory(before);
+            discount(before);
             keyframe.until = std::max(keyframe.until, before.until);
             keyframe.kept |= before.kept;
             before = std::move(keyframe);
@@ -282,6 +303,14 @@ void Timeline::refresh_kept(BranchId id) {
     for (const Bookmark& bookmark : bookmarks_)
         if (bookmark.moment.branch == id)
             keep(bookmark.moment.step);
+}
+
+void Timeline::set_options(const CacheOptions& options) {
+    if (options.disk_folder != options_.disk_folder)
+        scratch_.reset(); // what is there stays until nobody needs it any more
+    options_ = options;
+    disk_most_ = options.disk;
+    disk_trouble_.clear();
 }
 
 std::size_t Timeline::memory() const {

@@ -5,40 +5,49 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "timeline/branch.h"
+#include "timeline/scratch_file.h"
 #include "timeline/step_costs.h"
 
 namespace clothlab::timeline {
 
 struct CacheOptions {
-    std::size_t budget = std::size_t{512} << 20; ///< bytes, of all branches together
+    std::size_t budget = std::size_t{512} << 20; ///< bytes of memory, of all branches together
     /// What the steps of a seek may take, in s; 2.5 times as long where one frame alone takes longer than that. States
     /// are stored so close together that it suffices, and dropped rather than further apart.
     double seek_s = 0.0135;
     /// Simulated seconds that are worth a slower seek, of a whole frame or up to four times that, before their states
     /// are dropped.
     double least_reach_s = 0;
+    /// Bytes on a disk, for states that memory has no room for and that are needed for a quick seek.
+    std::size_t disk = 0;
+    std::filesystem::path disk_folder = {}; ///< empty: scratch_folder()
     bool operator==(const CacheOptions&) const = default;
 };
 
 /// The stored state from which a step of a branch's own part is reached; null when it cannot be.
 const Keyframe* keyframe_before(const Branch& branch, std::uint64_t step);
 
-/// Bytes of all that a branch keeps, of a stored state of it, and of all else.
+/// Bytes of memory of all that a branch keeps, of a stored state of it, and of all else.
 std::size_t memory(const Branch& branch);
 std::size_t memory(const Keyframe& keyframe);
 std::size_t memory_but_keyframes(const Branch& branch);
+/// Bytes on disk, of a stored state and of all of a branch's.
+std::size_t on_disk(const Keyframe& keyframe);
+std::size_t on_disk(const Branch& branch);
 
 /// How much longer a seek may take where one frame alone takes longer than a seek should.
 inline constexpr double slow_frame = 2.5;
 
 class Timeline {
 public:
-    explicit Timeline(const CacheOptions& options = {}) : options_(options) { revise(); }
+    explicit Timeline(const CacheOptions& options = {}) : options_(options), disk_most_(options.disk) { revise(); }
 
     const std::vector<Branch>& branches() const { return branches_; } ///< parents before their children
     const std::vector<Bookmark>& bookmarks() const { return bookmarks_; }
@@ -102,13 +111,17 @@ public:
     void refresh_kept(BranchId id);
     /// Thins out and drops states until the budget holds. First states go so that those left are evenly apart, the
     /// oldest first, as long as a seek between them takes no longer than it may by what the steps there took; then the
-    /// oldest go, each branch's last one excepted, and kept ones only when no others are left.
+    /// oldest move to the disk, as far as there is room on it; then the oldest go, each branch's last one excepted, and
+    /// kept ones only when no others are left.
     void fit();
 
     const CacheOptions& options() const { return options_; }
-    void set_options(const CacheOptions& options) { options_ = options; }
-    /// Bytes of all that is kept.
+    void set_options(const CacheOptions& options);
+    /// Bytes of memory of all that is kept.
     std::size_t memory() const;
+    std::size_t on_disk() const { return on_disk_; } ///< bytes
+    /// Why the disk is not used as it should be; empty when it is. Another try is made when options are set.
+    const std::string& disk_trouble() const { return disk_trouble_; }
     /// Simulated seconds that are reachable, of all branches together.
     double reach_s() const;
 
@@ -118,17 +131,37 @@ private:
         std::uint64_t frames = 1; ///< that it reaches into
         double seconds = 0;       ///< that its steps take
     };
+    // What there may be, in bytes.
+    struct Room {
+        static constexpr std::size_t any = SIZE_MAX;
+        std::size_t memory = any, disk = any, both = any;
+    };
+    bool over(const Room& room) const { return over(room, memory()); }
+    bool over(const Room& room, std::size_t memory) const {
+        return memory > room.memory || on_disk_ > room.disk || memory + on_disk_ > room.both;
+    }
+    /// Whether it becomes less of what there is too much of when the state goes.
+    bool helps(const Keyframe& keyframe, const Room& room, std::size_t memory) const;
     /// For seeks that take so many times as long as they should.
     Gap widest_gap(double frame_s, double slower) const;
     /// What goes from each branch is what leaves gaps no wider than gap_of gives for its steps' costs.
     template <class GapOf>
-    void thin(std::size_t most, const std::vector<StepCosts>& costs, GapOf gap_of);
-    void drop(std::size_t most, bool kept_too, double least_reach_s);
+    void thin(const Room& room, const std::vector<StepCosts>& costs, GapOf gap_of);
+    void drop(const Room& room, bool kept_too, double least_reach_s);
+    /// The oldest states go, or those between others if seeks may become slow.
+    void make_room(const Room& room);
+    /// The oldest states, until memory has no more than that or the disk its part; false when the disk fails.
+    bool move_to_disk(std::size_t most);
+    void count(const Keyframe& keyframe);
+    void discount(const Keyframe& keyframe);
     static void forget_unreachable(Branch& branch);
 
     CacheOptions options_;
     std::uint64_t revision_;
-    std::size_t stored_ = 0; ///< bytes of all keyframes
+    std::size_t stored_ = 0, on_disk_ = 0; ///< bytes of all keyframes
+    std::shared_ptr<ScratchFile> scratch_; ///< none before it is needed
+    std::size_t disk_most_ = 0;            ///< bytes that may be there: the options', or what there was when it failed
+    std::string disk_trouble_;
     std::vector<Branch> branches_;
     std::vector<Bookmark> bookmarks_;
     BranchId next_branch_ = 1;

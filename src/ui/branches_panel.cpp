@@ -34,7 +34,7 @@ std::string range_text(const timeline::Overview& o, const BranchInfo& b) {
     char text[160];
     std::snprintf(text, sizeof text, "%.2f to %.2f s (frames %llu to %llu), %s", fork_time(o, b), b.end_time,
                   static_cast<unsigned long long>(b.fork_frame), static_cast<unsigned long long>(b.end_frame),
-                  megabytes(b.memory).c_str());
+                  megabytes(b.memory + b.on_disk).c_str());
     return text;
 }
 

@@ -49,8 +49,8 @@ struct TimelineView {
     std::array<Drawn, curve_rows> drawn; ///< what need not be computed again
 
     std::optional<Renaming> renaming;
-    std::string bookmark_name;            ///< typed for the next one
-    int budget_mb = 0, least_reach_s = 0; ///< while they are being edited
+    std::string bookmark_name;                         ///< typed for the next one
+    int budget_mb = 0, disk_mb = 0, least_reach_s = 0; ///< while they are being edited
 
     struct Files {
         bool save = false, open = false, exporting = false; ///< a window is wanted

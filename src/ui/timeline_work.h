@@ -66,7 +66,8 @@ struct SetBreakpoints {
 };
 struct SetCacheBudget {
     std::size_t bytes = 0;
-    double least_reach_s = 0; ///< timeline::CacheOptions
+    double least_reach_s = 0; ///< timeline::CacheOptions, as what follows
+    std::size_t disk = 0;
 };
 /// Whether the lab looks into the next step (TimelineWork::trace).
 struct InspectStep {

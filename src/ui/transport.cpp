@@ -176,31 +176,57 @@ double reach(const timeline::Overview& o, const FrameAxis& axis) {
     return std::max(0.0, o.end_time - axis.time_of(static_cast<double>(o.reachable.back().first)));
 }
 
+float popup_width() {
+    return ImGui::GetFontSize() * 18;
+}
+
+void used_bar(std::size_t bytes, std::size_t most) {
+    ImGui::ProgressBar(most > 0 ? static_cast<float>(bytes) / static_cast<float>(most) : 0.f, {popup_width(), 0},
+                       (megabytes(bytes) + " of " + megabytes(most)).c_str());
+}
+
 void cache_popup(Lab& lab, const timeline::Overview& o, const FrameAxis& axis) {
     if (!ImGui::BeginPopup("cache"))
         return;
     ImGui::TextUnformatted("Memory for the timeline");
-    ImGui::ProgressBar(o.budget > 0 ? static_cast<float>(o.memory) / static_cast<float>(o.budget) : 0.f,
-                       {ImGui::GetFontSize() * 18, 0}, (megabytes(o.memory) + " of " + megabytes(o.budget)).c_str());
+    used_bar(o.memory, o.budget);
+    ImGui::TextUnformatted("On disk, what memory has no room for");
+    used_bar(o.on_disk, o.disk);
+    if (!o.disk_trouble.empty()) {
+        ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + popup_width());
+        ImGui::TextColored(colour::warning, "The disk cannot be used as it should: %s", o.disk_trouble.c_str());
+        ImGui::PopTextWrapPos();
+    }
     ImGui::Text("Reaches back %.1f s without a gap; %zu frames are stored.", reach(o, axis), o.keyframes.size());
     TimelineView& view = lab.timeline_view;
-    if (ImGui::IsWindowAppearing())
-        view.budget_mb = static_cast<int>(o.budget >> 20), view.least_reach_s = static_cast<int>(o.least_reach_s);
+    if (ImGui::IsWindowAppearing()) {
+        view.budget_mb = static_cast<int>(o.budget >> 20);
+        view.disk_mb = static_cast<int>(o.disk >> 20);
+        view.least_reach_s = static_cast<int>(o.least_reach_s);
+    }
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
     ImGui::InputInt("MB at most", &view.budget_mb, 0);
-    tooltip("From 16 MB to 64 GB. Where the states do not fit, older ones are thinned out before they are dropped; "
-            "marked and bookmarked ones go last.");
+    tooltip(
+        "From 16 MB to 64 GB. Where the states do not fit, older ones are thinned out, then moved to the disk, then "
+        "dropped; marked and bookmarked ones go last.");
     view.budget_mb = std::clamp(view.budget_mb, 16, 65536);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
+    ImGui::InputInt("MB on disk", &view.disk_mb, 0);
+    tooltip("0 to 1 TB, in the folder that TMPDIR names, or /var/tmp. The file has no name, and is gone when the lab "
+            "ends.");
+    view.disk_mb = std::clamp(view.disk_mb, 0, 1 << 20);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
     ImGui::InputInt("s at least, even if slow to go to", &view.least_reach_s, 0);
     tooltip("0: what would be slow to go to is dropped when the memory is used up. Otherwise so many of the newest "
             "seconds are kept as far as they fit, though going to a moment of theirs may take four times as long, or "
-            "as long as its whole frame.");
+            "as long as its whole frame. The disk is used first.");
     view.least_reach_s = std::clamp(view.least_reach_s, 0, 86400);
     const auto bytes = static_cast<std::size_t>(view.budget_mb) << 20;
-    ImGui::BeginDisabled(bytes == o.budget && view.least_reach_s == o.least_reach_s);
-    if (ImGui::Button("Set"))
-        ask_timeline(lab, SetCacheBudget{bytes, static_cast<double>(view.least_reach_s)});
+    const auto disk = static_cast<std::size_t>(view.disk_mb) << 20;
+    const bool same = bytes == o.budget && disk == o.disk && view.least_reach_s == o.least_reach_s;
+    ImGui::BeginDisabled(same && o.disk_trouble.empty());
+    if (ImGui::Button(same && !o.disk_trouble.empty() ? "Try again###Set" : "Set###Set"))
+        ask_timeline(lab, SetCacheBudget{bytes, static_cast<double>(view.least_reach_s), disk});
     ImGui::EndDisabled();
     ImGui::EndPopup();
 }
@@ -228,8 +254,10 @@ void cache_bar(Lab& lab, float width) {
                         ImGui::GetColorU32(colour::accent), line / 2);
     char help[240];
     std::snprintf(help, sizeof help,
-                  "The timeline uses %s of %s and reaches back %.1f s from the line's end. Click to change the memory.",
-                  megabytes(o.memory).c_str(), megabytes(o.budget).c_str(), reach(o, axis));
+                  "The timeline uses %s of %s, and %s of a disk, and reaches back %.1f s from the line's end. Click to "
+                  "change that.",
+                  megabytes(o.memory).c_str(), megabytes(o.budget).c_str(), megabytes(o.on_disk).c_str(),
+                  reach(o, axis));
     tooltip(help);
     cache_popup(lab, o, axis);
 }

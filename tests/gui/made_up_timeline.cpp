@@ -103,6 +103,7 @@ std::shared_ptr<timeline::Overview> made_up_overview() {
             o->samples.push_back(sample(frame));
     o->memory = std::size_t{333} << 20;
     o->budget = std::size_t{512} << 20;
+    o->disk = std::size_t{1} << 30;
     return o;
 }
 

@@ -211,12 +211,33 @@ TEST_CASE("The cache's memory is changed where it is shown") {
     REQUIRE(driver.act([](ImGuiTestContext* user) {
         user->ItemClick("###Timeline/###cache");
         user->ItemInputValue("//$FOCUSED/MB at most", 64);
-        user->ItemClick("//$FOCUSED/Set");
+        user->ItemClick("//$FOCUSED/###Set");
     }));
     const auto asked = driver.asked<ui::SetCacheBudget>();
     REQUIRE(asked.size() == 1);
     CHECK(asked[0].bytes == std::size_t{64} << 20);
     CHECK(asked[0].least_reach_s == 0);
+    CHECK(asked[0].disk == std::size_t{1} << 30);
+}
+
+TEST_CASE("What may lie on disk is set beside the memory, and what is wrong with the disk is said there") {
+    PanelDriver driver;
+    show_made_up_timeline(driver.lab);
+    REQUIRE(driver.act([](ImGuiTestContext* user) {
+        user->ItemClick("###Timeline/###cache");
+        user->ItemInputValue("//$FOCUSED/MB on disk", 2048);
+        user->ItemClick("//$FOCUSED/###Set");
+    }));
+    CHECK(driver.asked<ui::SetCacheBudget>().at(0).disk == std::size_t{2} << 30);
+
+    auto o = std::make_shared<timeline::Overview>(*driver.lab.timeline.overview);
+    o->disk_trouble = "/var/tmp: No space left on device";
+    driver.lab.timeline.overview = o;
+    REQUIRE(driver.act([](ImGuiTestContext* user) {
+        user->ItemClick("###Timeline/###cache");
+        user->ItemClick("//$FOCUSED/###Set"); // another try with the same
+    }));
+    CHECK(driver.asked<ui::SetCacheBudget>().at(1).disk == std::size_t{1} << 30);
 }
 
 TEST_CASE("How many seconds are kept though they are slow to go to is set beside the memory") {
@@ -225,7 +246,7 @@ TEST_CASE("How many seconds are kept though they are slow to go to is set beside
     REQUIRE(driver.act([](ImGuiTestContext* user) {
         user->ItemClick("###Timeline/###cache");
         user->ItemInputValue("//$FOCUSED/s at least, even if slow to go to", 60);
-        user->ItemClick("//$FOCUSED/Set");
+        user->ItemClick("//$FOCUSED/###Set");
     }));
     const auto asked = driver.asked<ui::SetCacheBudget>();
     REQUIRE(asked.size() == 1);

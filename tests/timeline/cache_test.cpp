@@ -2,62 +2,12 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 
-#include "sim/random.h"
 #include "support/effort.h"
-#include "timeline/overview.h"
+#include "support/timelines.h"
 
 using namespace clothlab;
 using namespace clothlab::test;
 using namespace clothlab::timeline;
-
-namespace {
-
-sim::Description tiny_cloth() {
-    sim::Description d;
-    d.cloth.num_width_points = 4;
-    d.cloth.num_height_points = 3;
-    d.cloth.pinned = {{0, 0}};
-    d.stepping.substeps = 2;
-    return d;
-}
-
-Sample sample_of(std::uint64_t frame, double seconds) {
-    Sample sample{.frame = frame, .time = static_cast<double>(frame) / 90};
-    sample.stage_seconds[0] = static_cast<float>(seconds / 30);
-    return sample;
-}
-
-/// A branch without a simulation behind it: a state of so many bytes at the end of every frame, which took so long.
-Timeline made_up(std::size_t budget, std::uint64_t frames, std::size_t bytes, double frame_s,
-                 double least_reach_s = 0) {
-    Timeline timeline({.budget = budget, .seek_s = 0.01, .least_reach_s = least_reach_s});
-    const auto description = std::make_shared<const sim::Description>();
-    const BranchId id = timeline.add_root(description, {0, 0, 0, 30, 0, 1.0 / 2700});
-    timeline.store(id, {0, 0, description, nullptr, false});
-    Branch& branch = *timeline.find(id);
-    for (std::uint64_t frame = 1; frame <= frames; ++frame) {
-        branch.end = 30 * frame;
-        branch.keyframes.back().until = branch.end;
-        branch.samples.push_back(sample_of(frame, frame_s));
-        timeline.store(id, {branch.end, branch.end, description, keep_in_memory(std::vector<std::byte>(bytes)), false});
-    }
-    return timeline;
-}
-
-/// The most frames from one stored state to the next, over all that is reachable.
-std::uint64_t widest_gap(const Branch& branch) {
-    std::uint64_t widest = 0;
-    for (const Keyframe& keyframe : branch.keyframes)
-        widest = std::max(widest, (keyframe.until - keyframe.step) / 30);
-    return widest;
-}
-
-std::uint64_t hash_at(Player& player, std::uint64_t step) {
-    REQUIRE(player.seek(step));
-    return player.simulation().hash();
-}
-
-} // namespace
 
 TEST_CASE("Within the budget nothing is thinned out") {
     Timeline timeline = made_up(1 << 20, 100, 1000, 0.001);
@@ -269,32 +219,4 @@ TEST_CASE("A timeline that is taken over, as from a file, is thinned out by what
         REQUIRE(player.timeline().reachable({player.line(), step}));
     REQUIRE(hash_at(player, 300) != hash);
     REQUIRE(hash_at(player, 600) == hash);
-}
-
-TEST_CASE("With 64 MB a 50 x 50 cloth keeps a minute of frames reachable, exactly") {
-    const int frames = sanitized ? 540 : 5400;
-    sim::Description description; // the course's: 50 x 50 points, 90 frames/s, 30 substeps
-    description.cloth.pinned = {{0, 0}, {49, 0}};
-    CacheOptions options;
-    options.budget = (std::size_t{64} << 20) / (sanitized ? 10 : 1);
-    options.seek_s *= sanitized ? 10 : 4; // for sanitizers, and for a machine that has other work
-    Player player(options);
-    player.start(description);
-    std::vector<std::uint64_t> hashes{player.simulation().hash()};
-    for (int frame = 0; frame < frames; ++frame) {
-        for (int n = 0; n < 30; ++n)
-            player.step();
-        hashes.push_back(player.simulation().hash());
-    }
-    REQUIRE(player.memory() <= player.options().budget);
-    const Overview o = overview(player);
-    REQUIRE(o.reachable.size() == 1);
-    REQUIRE(o.reachable[0].first == 0);
-    REQUIRE(o.reachable[0].last == static_cast<std::uint64_t>(frames));
-    sim::SplitMix64 random(1);
-    for (int n = 0; n < 40; ++n) {
-        const std::uint64_t frame = random.next() % hashes.size();
-        REQUIRE(hash_at(player, 30 * frame) == hashes[frame]);
-        REQUIRE(player.memory() <= player.options().budget);
-    }
 }

@@ -57,7 +57,8 @@ class Session {
 public:
     Session(std::uint64_t seed, const sim::Description& description, int threads)
         : random_(seed),
-          player_({.budget = 200'000, .seek_s = 0.0005}, {.threads = threads, .fewer_if_faster = threads == 1}) {
+          player_({.budget = 200'000, .seek_s = 0.0005, .disk = seed % 2 == 0 ? std::size_t{200'000} : 0},
+                  {.threads = threads, .fewer_if_faster = threads == 1}) {
         player_.start(description);
         stories_[player_.line()] = {description, {}};
     }

@@ -35,10 +35,12 @@ constexpr double factor_window = 0.5;
 /// The stability margin and the overview are made no more often than this, and in no more than this share of the time.
 constexpr double margin_interval = 0.2, margin_share = 0.1;
 constexpr double overview_interval = 0.05, overview_share = 0.05;
+/// Bytes of the timeline on disk, until somebody says otherwise.
+constexpr std::size_t disk_at_first = std::size_t{1} << 30;
 
 } // namespace
 
-SimulationWorker::SimulationWorker() : player_({}, {.threads = most_threads()}) {
+SimulationWorker::SimulationWorker() : player_({.disk = disk_at_first}, {.threads = most_threads()}) {
     restart_pace();
 }
 
