@@ -205,7 +205,7 @@ void cache_popup(Lab& lab, const timeline::Overview& o, const FrameAxis& axis) {
         view.least_reach_s = static_cast<int>(o.least_reach_s);
     }
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
-    ImGui::InputInt("MB at most", &view.budget_mb, 0);
+    ImGui::InputInt("MB in memory", &view.budget_mb, 0);
     tooltip(
         "From 16 MB to 64 GB. Where the states do not fit, older ones are thinned out, then moved to the disk, then "
         "dropped; marked and bookmarked ones go last.");
