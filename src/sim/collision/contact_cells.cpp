@@ -93,7 +93,9 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
 
     // Of points that are no longer finite, all that are not very far apart are looked at.
     constexpr double most = 1e19, rounding = std::numeric_limits<float>::epsilon();
-    const double reach = std::isfinite(bound) ? std::min(reach_of(model, bound) + 4 * rounding * largest, most) : most;
+    const double reach = std::isfinite(bound)
+                             ? std::min(reach_of(model, farthest_push(model), bound) + 4 * rounding * largest, most)
+                             : most;
     const CellPassArguments<Real> all{position.axes(),
                                       s.sorted.data(),
                                       {sorted[0], sorted[1], sorted[2]},

@@ -13,6 +13,8 @@ constexpr double skin_share = 1;
 /// A list that does not last so many steps costs more than it saves; then it is left for some steps, and for twice as
 /// many every next time.
 constexpr int least_age = 6, least_without = 32, most_without = 512;
+/// Of the farthest that a point could be pushed: less is not worth telling apart.
+constexpr double least_push = 1.0 / 64;
 
 /// Cells of a box around all points, not more than most_cells(), each at least `size` wide and a little more, for the
 /// rounding in Real: x fastest.
@@ -79,7 +81,7 @@ bool list_far_pairs(const Model<Real>& model, const Vec3Array<Real>& position, W
     const double apart = 2 * static_cast<double>(model.thickness);
     s.skin = skin_share * apart;
     s.far_pairs.clear();
-    const double most = reach_of(model, s.coordinate_bound) + s.skin;
+    const double most = reach_of(model, farthest_push(model), s.coordinate_bound) + s.skin;
     const Box<Real> box(position, most);
     if (!box.usable)
         return false;
@@ -180,6 +182,29 @@ Proximity look_at_neighbours(const Model<Real>& model, const Vec3Array<Real>& po
     return result;
 }
 
+template <class Real>
+Real reach_squared(const Model<Real>& model, const SelfCollisionWork<Real>& s) {
+    const double reach = reach_of(model, s.push, s.coordinate_bound);
+    return static_cast<Real>(reach * reach * (1 + 8 * static_cast<double>(std::numeric_limits<Real>::epsilon())));
+}
+
+/// All pairs that the rule could concern, of those listed and of neighbours, as long as no point is pushed farther than
+/// s.push. Returns how far one is in fact pushed at most: when its turn comes, none of its partners has come nearer by
+/// more than that.
+template <class Real>
+double keep_near_pairs(const Model<Real>& model, const Vec3Array<Real>& position, SelfCollisionWork<Real>& s,
+                       const Kernels<Real>& kernels) {
+    const CellArguments<Real> cells{position.axes(), position.size(), {model.cell_x, model.cell_y, model.cell_z}};
+    s.pairs.insert(s.pairs.end(), s.far_pairs.begin(), s.far_pairs.end());
+    const KeptPairs<Real> kept = kernels.keep_pairs(cells, reach_squared(model, s), s.pairs.data(), s.pairs.size());
+    s.pairs.resize(kept.count);
+    constexpr double rounding = std::numeric_limits<Real>::epsilon();
+    const double apart = 2 * static_cast<double>(model.thickness), farthest = farthest_push(model);
+    const double missing = apart - std::sqrt(static_cast<double>(kept.least_squared)) * (1 - 64 * rounding) +
+                           8 * rounding * s.coordinate_bound;
+    return model.substeps > 1 ? std::clamp(missing / (model.substeps - 1), 0.0, farthest) : farthest;
+}
+
 /// Leaves the list for some time. Returns false.
 template <class Real>
 bool leave(SelfCollisionWork<Real>& s) {
@@ -192,10 +217,15 @@ bool leave(SelfCollisionWork<Real>& s) {
 } // namespace
 
 template <class Real>
-double reach_of(const Model<Real>& model, double coordinate_bound) {
+double farthest_push(const Model<Real>& model) {
+    return 2 * static_cast<double>(model.thickness) / model.substeps;
+}
+
+template <class Real>
+double reach_of(const Model<Real>& model, double push, double coordinate_bound) {
     const double apart = 2 * static_cast<double>(model.thickness);
     constexpr double rounding = std::numeric_limits<Real>::epsilon();
-    return (apart + apart / model.substeps) * (1 + 64 * rounding) + 8 * rounding * coordinate_bound;
+    return (apart + push) * (1 + 64 * rounding) + 8 * rounding * coordinate_bound;
 }
 
 template <class Real>
@@ -205,13 +235,14 @@ bool find_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Works
         --s.without_list;
         return false;
     }
-    constexpr double rounding = std::numeric_limits<Real>::epsilon();
-    const double reach = reach_of(model, s.coordinate_bound);
-    const Real reach_squared = static_cast<Real>(reach * reach * (1 + 8 * rounding));
-    Proximity proximity = look_at_neighbours(model, position, work, reach_squared);
+    // Most steps push no point nearly as far as one could be pushed, and so a smaller reach will do.
+    const double farthest = farthest_push(model);
+    s.push = std::min(s.push, farthest);
+    Proximity proximity = look_at_neighbours(model, position, work, reach_squared(model, s));
     if (proximity.too_many)
         return leave(s);
     s.age = std::min(s.age + 1, 1 << 20);
+    constexpr double rounding = std::numeric_limits<Real>::epsilon();
     if (!s.anchored || !(proximity.spread <= s.skin * (1 - 1e-3) - 8 * rounding * s.coordinate_bound)) {
         if (s.anchored && s.age < least_age)
             return leave(s);
@@ -228,16 +259,21 @@ bool find_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Works
         s.anchored = false;
         return false;
     }
-
-    const CellArguments<Real> cells{position.axes(), position.size(), {model.cell_x, model.cell_y, model.cell_z}};
-    s.pairs.insert(s.pairs.end(), s.far_pairs.begin(), s.far_pairs.end());
-    s.pairs.resize(work.kernels->keep_pairs(cells, reach_squared, s.pairs.data(), s.pairs.size()));
+    const double push = keep_near_pairs(model, position, s, *work.kernels);
+    if (push > s.push) {
+        s.push = farthest;
+        if (look_at_neighbours(model, position, work, reach_squared(model, s)).too_many)
+            return leave(s);
+        keep_near_pairs(model, position, s, *work.kernels);
+    }
+    s.push = std::max({2 * push, 0.9 * s.push, least_push * farthest});
     return true;
 }
 
 #define CLOTHLAB_DEFINE(Real)                                                                                          \
     template bool find_pairs<Real>(const Model<Real>&, const Vec3Array<Real>&, Workspace<Real>&);                      \
-    template double reach_of<Real>(const Model<Real>&, double);
+    template double farthest_push<Real>(const Model<Real>&);                                                           \
+    template double reach_of<Real>(const Model<Real>&, double, double);
 CLOTHLAB_DEFINE(float)
 CLOTHLAB_DEFINE(double)
 #undef CLOTHLAB_DEFINE

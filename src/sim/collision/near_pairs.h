@@ -20,11 +20,15 @@ namespace clothlab::sim {
 template <class Real>
 bool find_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work);
 
-/// The distance from which on two points of a stage's beginning cannot touch in it, in m, when no coordinate is larger
-/// than the bound: a point is moved once, by the mean of its missing distances over the substeps, and its position is
-/// rounded once more.
+/// The farthest that the stage can move a point, in m: once, by the mean of its missing distances over the substeps.
 template <class Real>
-double reach_of(const Model<Real>& model, double coordinate_bound);
+double farthest_push(const Model<Real>& model);
+
+/// The distance from which on two points of a stage's beginning cannot touch in it, in m, when no point is moved
+/// farther than `push` and no coordinate is larger than the bound, by which positions are rounded. Of two points one
+/// has not been moved yet when they are looked at.
+template <class Real>
+double reach_of(const Model<Real>& model, double push, double coordinate_bound);
 
 /// More pairs of neighbours than these are better pushed apart cell by cell.
 constexpr std::size_t most_pairs(std::size_t points) {
@@ -41,7 +45,8 @@ constexpr std::size_t most_cells(std::size_t points) {
 
 #define CLOTHLAB_DECLARE(Real)                                                                                         \
     extern template bool find_pairs<Real>(const Model<Real>&, const Vec3Array<Real>&, Workspace<Real>&);               \
-    extern template double reach_of<Real>(const Model<Real>&, double);
+    extern template double farthest_push<Real>(const Model<Real>&);                                                    \
+    extern template double reach_of<Real>(const Model<Real>&, double, double);
 CLOTHLAB_DECLARE(float)
 CLOTHLAB_DECLARE(double)
 #undef CLOTHLAB_DECLARE

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "sim/aligned.h"
@@ -29,10 +30,11 @@ struct SelfCollisionWork {
     // each other by more than the skin since, a pair that is not on the list is out of reach.
     Vec3Array<Real> anchor;
     bool anchored = false;
-    double skin = 0;                  ///< m
-    double anchor_bound = 0;          ///< m, largest coordinate of the anchor
-    double coordinate_bound = 1;      ///< m, no coordinate is expected to be larger
-    int age = 0;                      ///< steps since the list was made
+    double skin = 0;                                       ///< m
+    double anchor_bound = 0;                               ///< m, largest coordinate of the anchor
+    double coordinate_bound = 1;                           ///< m, no coordinate is expected to be larger
+    double push = std::numeric_limits<double>::infinity(); ///< m, no point is expected to be pushed farther
+    int age = 0;                                           ///< steps since the list was made
     int without_list = 0;             ///< steps to be done without it, since it was too long or did not last
     int without_list_next = 0;        ///< how many the next time
     std::vector<PointPair> far_pairs; ///< the list: none that are neighbours in the grid

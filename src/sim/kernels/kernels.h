@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "sim/execution.h"
 #include "sim/grid.h"
@@ -149,6 +150,12 @@ struct CellArguments {
     std::array<Real, 3> cell; ///< m
 };
 
+template <class Real>
+struct KeptPairs {
+    std::size_t count = 0;
+    Real least_squared = std::numeric_limits<Real>::infinity(); ///< m²
+};
+
 /// Of the cells that points lie in, and of their keys.
 template <class Real>
 struct CellKeys {
@@ -195,8 +202,8 @@ struct Kernels {
     /// Returns how many pairs there are; most_pairs + 1 when there are more than most_pairs.
     std::size_t (*far_pairs)(const FarPairArguments<Real>&);
     /// Keeps, in order, those of `count` pairs whose points are not at least the reach apart and lie in the same cell;
-    /// returns how many.
-    std::size_t (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
+    /// returns how many, and the square of the least distance of such a pair.
+    KeptPairs<Real> (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
     /// Finds the cell of each point, whole numbers in Real, and a key of it, a vector of padding behind each; and
     /// copies the points to `moving` as x, y, z, 0.
     CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, const Axes<Real>& cell, std::uint32_t* key, Real* moving);

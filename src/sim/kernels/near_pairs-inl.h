@@ -179,11 +179,12 @@ HWY_INLINE Lane<Real> cell_of(Lane<Real> x, Real size) {
 }
 
 template <class Real>
-std::size_t keep_pairs(const CellArguments<Real>& a, Real reach_squared, PointPair* pairs, std::size_t count) {
+KeptPairs<Real> keep_pairs(const CellArguments<Real>& a, Real reach_squared, PointPair* pairs, std::size_t count) {
     const Tag<Real> d;
     constexpr std::size_t step = HWY_LANES(Real);
     HWY_ALIGN Real ends[2][3][step] = {};
-    std::size_t kept = 0;
+    KeptPairs<Real> kept;
+    auto least = hn::Set(d, kept.least_squared);
     for (std::size_t k = 0; k < count; k += step) {
         const std::size_t n = HWY_MIN(count - k, step);
         for (std::size_t l = 0; l < n; ++l)
@@ -199,9 +200,11 @@ std::size_t keep_pairs(const CellArguments<Real>& a, Real reach_squared, PointPa
             keep = hn::And(keep, hn::Eq(cell_of<Real>(first, a.cell[axis]), cell_of<Real>(second, a.cell[axis])));
         }
         keep = hn::AndNot(hn::Ge(square, hn::Set(d, reach_squared)), keep);
+        least = hn::IfThenElse(hn::And(keep, hn::Lt(square, least)), square, least);
         for (std::uint32_t bits = bits_of<Real>(keep); bits != 0; bits &= bits - 1)
-            pairs[kept++] = pairs[k + static_cast<std::size_t>(std::countr_zero(bits))];
+            pairs[kept.count++] = pairs[k + static_cast<std::size_t>(std::countr_zero(bits))];
     }
+    kept.least_squared = hn::GetLane(hn::MinOfLanes(d, least));
     return kept;
 }
 
