@@ -27,6 +27,7 @@ std::size_t sort_by_bucket(const Vec3Array<Real>& position, SelfCollisionWork<Re
                            const Axes<float>& sorted, std::uint32_t mask) {
     const std::size_t count = position.size(), buckets = std::size_t{mask} + 1;
     const std::uint32_t* key = work.key.data();
+    std::uint32_t* sorted_key = work.partners.data();
     std::uint32_t *run_end = work.run_end.data(), *next = work.cell_end.data();
     std::size_t runs = 0;
     for (std::size_t i = 0; i + 1 < count; ++i) {
@@ -50,6 +51,7 @@ std::size_t sort_by_bucket(const Vec3Array<Real>& position, SelfCollisionWork<Re
         std::size_t k = std::exchange(next[key[i] & mask], next[key[i] & mask] + run_end[run] - i);
         do {
             work.order[k] = i;
+            sorted_key[k] = key[i];
             sorted[0][k] = static_cast<float>(position.x[i] - origin[0]);
             sorted[1][k] = static_cast<float>(position.y[i] - origin[1]);
             sorted[2][k] = static_cast<float>(position.z[i] - origin[2]);
@@ -76,8 +78,8 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     const std::array<Real, 3> width{model.cell_x, model.cell_y, model.cell_z};
     const std::size_t room = s.sorted_single.size() / 3;
     const Axes<float> sorted{s.sorted_single.data(), s.sorted_single.data() + room, s.sorted_single.data() + 2 * room};
-    const CellKeys<Real> keys = work.kernels->cell_keys({std::as_const(position).axes(), count, width}, s.anchor.axes(),
-                                                        s.key.data(), s.sorted.data());
+    const CellKeys<Real> keys =
+        work.kernels->cell_keys({std::as_const(position).axes(), count, width}, s.anchor.axes(), s.key.data());
     const auto bound = static_cast<double>(keys.largest);
     std::array<Real, 3> origin{};
     double largest = bound; // of the coordinates in single precision
@@ -97,10 +99,9 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
                              ? std::min(reach_of(model, farthest_push(model), bound) + 4 * rounding * largest, most)
                              : most;
     const CellPassArguments<Real> all{position.axes(),
-                                      s.sorted.data(),
                                       {sorted[0], sorted[1], sorted[2]},
                                       s.order.data(),
-                                      s.key.data(),
+                                      s.partners.data(),
                                       std::as_const(s.anchor).axes(),
                                       keys.exact,
                                       mask,
@@ -118,7 +119,7 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     const auto pass = [&](int index) {
         const auto cut = [&](int i) -> std::size_t {
             const std::size_t at = count * static_cast<std::size_t>(i) / static_cast<std::size_t>(threads);
-            return at == count ? count : s.bucket_begin[s.key[s.order[at]] & mask];
+            return at == count ? count : s.bucket_begin[s.partners[at] & mask];
         };
         CellPassArguments<Real> part = all;
         part.begin = cut(index);

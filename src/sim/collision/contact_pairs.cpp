@@ -33,7 +33,8 @@ void sort_few(std::span<std::uint32_t> values) {
 template <class Real>
 std::size_t resolve_pairs(const Model<Real>& model, State<Real>& state, SelfCollisionWork<Real>& work) {
     // Partners by point: how many each has, ...
-    for (const PointPair& pair : work.pairs)
+    const std::span<const PointPair> pairs(work.pairs.data(), work.pair_count);
+    for (const PointPair& pair : pairs)
         for (const std::uint32_t i : pair) {
             ++work.cursor[i];
             work.active[i / 64] |= std::uint64_t{1} << (i % 64);
@@ -47,7 +48,7 @@ std::size_t resolve_pairs(const Model<Real>& model, State<Real>& state, SelfColl
         begin += std::exchange(work.cursor[i], begin);
     });
     // ... and who they are, which moves each beginning to the list's end.
-    for (const auto& [a, b] : work.pairs) {
+    for (const auto& [a, b] : pairs) {
         work.partners[work.cursor[a]++] = b;
         work.partners[work.cursor[b]++] = a;
     }

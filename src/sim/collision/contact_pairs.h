@@ -7,8 +7,8 @@
 
 namespace clothlab::sim {
 
-/// Applies the rule to the pairs of work.pairs, to the bits of the plain loops: the points in index order, each with
-/// its partners in index order, where they are by then. Returns the number of pushes.
+/// Applies the rule to the first work.pair_count of work.pairs, to the bits of the plain loops: the points in index
+/// order, each with its partners in index order, where they are by then. Returns the number of pushes.
 template <class Real>
 std::size_t resolve_pairs(const Model<Real>& model, State<Real>& state, SelfCollisionWork<Real>& work);
 

@@ -141,7 +141,6 @@ Proximity look_at_neighbours(const Model<Real>& model, const Vec3Array<Real>& po
                              Real reach_squared) {
     SelfCollisionWork<Real>& s = work.self_collision;
     const ConstAxes<Real> anchor = s.anchored ? std::as_const(s.anchor).axes() : ConstAxes<Real>{};
-    s.pairs.resize(most_pairs(position.size()));
     const int ranges = for_ranges(model, work, [&](int index, std::size_t begin, std::size_t end) {
         // Each thread has a part of the list that is in proportion to its points.
         ProximityArguments<Real>& part = work.proximity[static_cast<std::size_t>(index)];
@@ -177,7 +176,7 @@ Proximity look_at_neighbours(const Model<Real>& model, const Vec3Array<Real>& po
                 result.largest = std::max({result.largest, std::abs(low[axis]), std::abs(high[axis])});
         }
     }
-    s.pairs.resize(result.too_many ? 0 : count);
+    s.pair_count = result.too_many ? 0 : count;
     result.spread = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
     return result;
 }
@@ -195,9 +194,10 @@ template <class Real>
 double keep_near_pairs(const Model<Real>& model, const Vec3Array<Real>& position, SelfCollisionWork<Real>& s,
                        const Kernels<Real>& kernels) {
     const CellArguments<Real> cells{position.axes(), position.size(), {model.cell_x, model.cell_y, model.cell_z}};
-    s.pairs.insert(s.pairs.end(), s.far_pairs.begin(), s.far_pairs.end());
-    const KeptPairs<Real> kept = kernels.keep_pairs(cells, reach_squared(model, s), s.pairs.data(), s.pairs.size());
-    s.pairs.resize(kept.count);
+    std::copy(s.far_pairs.begin(), s.far_pairs.end(), s.pairs.begin() + static_cast<std::ptrdiff_t>(s.pair_count));
+    s.pair_count += s.far_pairs.size();
+    const KeptPairs<Real> kept = kernels.keep_pairs(cells, reach_squared(model, s), s.pairs.data(), s.pair_count);
+    s.pair_count = kept.count;
     constexpr double rounding = std::numeric_limits<Real>::epsilon();
     const double apart = 2 * static_cast<double>(model.thickness), farthest = farthest_push(model);
     const double missing = apart - std::sqrt(static_cast<double>(kept.least_squared)) * (1 - 64 * rounding) +

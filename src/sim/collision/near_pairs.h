@@ -7,9 +7,9 @@
 
 namespace clothlab::sim {
 
-/// Sets work.self_collision.pairs to all pairs that the rule could concern: near enough at the beginning of the stage
-/// to touch in the course of it, and in the same cell. False, without pairs, where this way of finding them does not
-/// pay or the positions are not finite.
+/// Sets the first ones of work.self_collision.pairs, and their number, to all pairs that the rule could concern: near
+/// enough at the beginning of the stage to touch in the course of it, and in the same cell. False, without pairs, where
+/// this way of finding them does not pay or the positions are not finite.
 ///
 /// Pairs of neighbours in the grid are tested in every step, a vector at a time. All other pairs are on a list with a
 /// skin (L. Verlet, Physical Review 159 (1967), section II.B): it holds those that were nearer than the reach plus the

@@ -89,10 +89,11 @@ void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work) {
     }
     s.anchor.resize(points);
     s.far_pairs.reserve(most_far_pairs(points));
-    s.pairs.reserve(most_pairs(points) + most_far_pairs(points));
+    s.pairs.resize(most_pairs(points) + most_far_pairs(points));
+    s.pair_count = 0;
     s.cursor.assign(points, 0);
     s.active.assign(points / 64 + 1, 0);
-    s.partners.resize(2 * s.pairs.capacity());
+    s.partners.resize(2 * s.pairs.size());
     s.order.resize(points);
     s.key.resize(points);
     s.cell_end.resize(most_cells(points) + 1);

@@ -40,17 +40,18 @@ struct SelfCollisionWork {
     std::vector<PointPair> far_pairs; ///< the list: none that are neighbours in the grid
 
     // Few contacts: pair by pair.
-    std::vector<PointPair> pairs;        ///< that may touch in this step
+    std::vector<PointPair> pairs;        ///< room for those that may touch in this step
+    std::size_t pair_count = 0;          ///< so many first ones do
     std::vector<std::uint32_t> cursor;   ///< per point; all zero between steps
     std::vector<std::uint64_t> active;   ///< a bit per point; all zero between steps
-    std::vector<std::uint32_t> partners; ///< of the active points, one after the other
+    std::vector<std::uint32_t> partners; ///< of the active points, one after the other; many contacts: `key` by `order`
 
     // Points sorted by cell: while the list is made, and many contacts. Then there is no list, and `anchor` has the
     // cells of all points as whole numbers.
     AlignedVector<std::uint32_t> key;        ///< of each point's cell
     std::vector<std::uint32_t> order;        ///< points by cell
     std::vector<std::uint32_t> cell_end;     ///< per cell, or bucket of cells
-    AlignedVector<Real> sorted;              ///< four values per point; many contacts: x, y, z, 0 of each, not sorted
+    AlignedVector<Real> sorted;              ///< while the list is made: four values per point
     std::vector<std::uint32_t> run_end;      ///< of points that follow each other in a cell
     std::vector<std::uint32_t> bucket_begin; ///< per bucket, and one more
     AlignedVector<float> sorted_single;      ///< three coordinates per point

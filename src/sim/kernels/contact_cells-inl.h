@@ -58,7 +58,7 @@ HWY_INLINE CellKeys<Real> find_cells(const CellArguments<Real>& a, const Axes<Re
 }
 
 template <class Real>
-CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, std::uint32_t* key, Real* moving) {
+CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, std::uint32_t* key) {
     const Tag<Real> d;
     const hn::Rebind<std::int32_t, Tag<Real>> di;
     CellKeys<Real> keys = find_cells(a, cell);
@@ -80,13 +80,12 @@ CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, s
             sum = hn::Add(sum, hn::Mul(place, hn::Set(di, factor[axis])));
         }
         hn::StoreU(sum, di, reinterpret_cast<std::int32_t*>(key + k));
-        const Lane3<Real> x = load3(a.x, static_cast<std::ptrdiff_t>(k));
-        hn::StoreInterleaved4(x.x, x.y, x.z, hn::Zero(d), d, moving + 4 * k);
     }
     return keys;
 }
 
 /// Points that are gone through together, whole buckets of them. Index: the place in the batch.
+template <class Real>
 struct Batch {
     static constexpr std::size_t most_points = 512, most_words = 4096;
     /// Of each point the others of its bucket that are near it: bits, counted from the bucket's first point.
@@ -96,13 +95,16 @@ struct Batch {
     std::array<std::uint32_t, most_points> left;         ///< points that are not done yet
     std::array<std::uint64_t, most_points> found;  ///< a point that is near others and, above, which of the next vector
     std::array<std::uint32_t, most_points> active; ///< points with a bit, ascending
+    /// x, y, z, 0 of the active ones, where they are by now.
+    alignas(32) std::array<Real, 4 * most_points> place;
 };
 
-/// Whether two points lie in the same cell.
+/// Whether two sorted points lie in the same cell.
 template <class Real>
-HWY_INLINE bool same_cell(const CellPassArguments<Real>& a, std::size_t i, std::size_t j) {
+HWY_INLINE bool same_cell(const CellPassArguments<Real>& a, std::size_t k, std::size_t q) {
     if (HWY_LIKELY(a.exact))
-        return a.key[i] == a.key[j];
+        return a.key[k] == a.key[q];
+    const std::size_t i = a.order[k], j = a.order[q];
     return a.cell[0][i] == a.cell[0][j] && a.cell[1][i] == a.cell[1][j] && a.cell[2][i] == a.cell[2][j];
 }
 
@@ -122,14 +124,14 @@ HWY_INLINE std::uint64_t near_bits(const CellPassArguments<Real>& a, std::size_t
 /// Enters what was found of the vectors from `first` behind the points: for both points of each pair.
 template <bool one_word, class Real>
 HWY_INLINE void enter_found(const CellPassArguments<Real>& a, std::size_t begin, std::size_t found, std::size_t first,
-                            int word_bits, Batch& batch) {
+                            int word_bits, Batch<Real>& batch) {
     for (std::size_t n = 0; n < found; ++n) {
         const std::size_t k = batch.found[n] & 0xffffffffu, bucket = batch.bucket_begin[k];
         std::uint64_t bits = batch.found[n] >> 32;
         do {
             const std::size_t q = k + first + static_cast<std::size_t>(std::countr_zero(bits));
             bits &= bits - 1;
-            const std::uint64_t one = same_cell(a, a.order[begin + k], a.order[begin + q]) ? 1 : 0;
+            const std::uint64_t one = same_cell(a, begin + k, begin + q) ? 1 : 0;
             const auto enter = [&](std::size_t of, std::size_t other) {
                 const std::size_t word = one_word ? of : (of << word_bits) + (other - bucket) / 64;
                 batch.near[word] |= one << ((other - bucket) % 64);
@@ -144,14 +146,14 @@ HWY_INLINE void enter_found(const CellPassArguments<Real>& a, std::size_t begin,
 /// how many points have others near them. Without a branch for each point, of which few are near others.
 template <bool one_word, class Real>
 HWY_INLINE std::size_t find_near(const CellPassArguments<Real>& a, std::size_t begin, std::size_t count, int word_bits,
-                                 Batch& batch) {
+                                 Batch<Real>& batch) {
     constexpr std::size_t step = HWY_LANES(float);
     word_bits = one_word ? 0 : word_bits;
     std::fill_n(batch.near.begin(), count << word_bits, std::uint64_t{0});
     // Each point against the vector of points behind it, ...
     std::size_t found = 0, left = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t bucket = a.key[a.order[begin + k]] & a.mask;
+        const std::uint32_t bucket = a.key[begin + k] & a.mask;
         const std::uint32_t later = a.bucket_begin[bucket + 1] - static_cast<std::uint32_t>(begin + k + 1);
         batch.bucket_begin[k] = a.bucket_begin[bucket] - static_cast<std::uint32_t>(begin);
         batch.later[k] = later;
@@ -188,24 +190,20 @@ HWY_INLINE std::size_t find_near(const CellPassArguments<Real>& a, std::size_t b
     return active;
 }
 
-/// The pushes on one point, and where it goes, as PushSum has it. Three coordinates fit into a vector of four, which is
-/// faster where the machine has vectors so long and simple.
+/// The pushes on one point, and where it goes, as PushSum has it: points are x, y, z, 0. Three coordinates fit into a
+/// vector of four, which is faster where the machine has vectors so long and simple.
 template <class Real>
 class PointPush {
 public:
-    PointPush(const CellPassArguments<Real>& a, std::size_t i) : a_(a), x_(a.moving + 4 * i) {}
-    HWY_INLINE void add(std::size_t q) {
-        const Real* y = a_.moving + 4 * q;
-        sum_.add(x_[0] - y[0], x_[1] - y[1], x_[2] - y[2], a_.apart);
-    }
+    explicit PointPush(Real* x) : x_(x) {}
+    HWY_INLINE void add(const Real* y, Real apart) { sum_.add(x_[0] - y[0], x_[1] - y[1], x_[2] - y[2], apart); }
     /// Moves the point and returns the number of pushes.
-    HWY_INLINE std::size_t move() {
-        sum_.move(x_[0], x_[1], x_[2], a_.substeps);
+    HWY_INLINE std::size_t move(Real substeps) {
+        sum_.move(x_[0], x_[1], x_[2], substeps);
         return sum_.count();
     }
 
 private:
-    const CellPassArguments<Real>& a_;
     Real* x_;
     PushSum<Real> sum_;
 };
@@ -215,56 +213,64 @@ class PointPush<float> {
     using D = hn::FixedTag<float, 4>;
 
 public:
-    HWY_INLINE PointPush(const CellPassArguments<float>& a, std::size_t i)
-        : a_(a), at_(a.moving + 4 * i), x_(hn::Load(D(), at_)), sum_(hn::Zero(D())), count_(hn::Zero(D())) {}
-    HWY_INLINE void add(std::size_t q) {
+    HWY_INLINE explicit PointPush(float* x)
+        : at_(x), x_(hn::Load(D(), x)), sum_(hn::Zero(D())), count_(hn::Zero(D())) {}
+    HWY_INLINE void add(const float* y, float most) {
         const D d;
-        const auto v = hn::Sub(x_, hn::Load(d, a_.moving + 4 * q)), squares = hn::Mul(v, v);
+        const auto v = hn::Sub(x_, hn::Load(d, y)), squares = hn::Mul(v, v);
         const auto length =
             hn::Sqrt(hn::Add(hn::Add(hn::Broadcast<0>(squares), hn::Broadcast<1>(squares)), hn::Broadcast<2>(squares)));
-        const auto apart = hn::Set(d, a_.apart);
+        const auto apart = hn::Set(d, most);
         const auto touching = hn::And(hn::Lt(length, apart), hn::Gt(length, hn::Zero(d)));
         const auto push = hn::IfThenElseZero(touching, hn::Div(hn::Sub(apart, length), length));
         sum_ = hn::Add(sum_, hn::Mul(push, v));
         count_ = hn::Add(count_, hn::IfThenElseZero(touching, hn::Set(d, 1.0f)));
     }
-    HWY_INLINE std::size_t move() {
+    HWY_INLINE std::size_t move(float substeps) {
         const D d;
-        const auto share = hn::Mul(count_, hn::Set(d, a_.substeps));
+        const auto share = hn::Mul(count_, hn::Set(d, substeps));
         hn::Store(hn::IfThenElse(hn::Gt(count_, hn::Zero(d)), hn::Add(x_, hn::Div(sum_, share)), x_), d, at_);
         return static_cast<std::size_t>(hn::GetLane(count_));
     }
 
 private:
-    const CellPassArguments<float>& a_;
     float* at_;
     hn::Vec<D> x_, sum_, count_;
 };
 
-/// Moves a point, unless it is pinned. Returns the number of pushes.
 template <class Real>
-HWY_INLINE std::size_t move_point(const CellPassArguments<Real>& a, std::size_t i, PointPush<Real>& push) {
-    if (a.pinned[i])
-        return 0;
-    const std::size_t count = push.move();
+HWY_INLINE void load_place(const CellPassArguments<Real>& a, std::size_t i, Real* place) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-        a.x[axis][i] = a.moving[4 * i + axis];
-    return count;
+        place[axis] = a.x[axis][i];
+    place[3] = 0;
 }
 
-/// Moves the batch's points that are near others, one after the other. Returns how many really were near enough.
+template <class Real>
+HWY_INLINE void store_place(const CellPassArguments<Real>& a, std::size_t i, const Real* place) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        a.x[axis][i] = place[axis];
+}
+
+/// Moves the batch's points that are near others, one after the other, unless they are pinned. Returns how many really
+/// were near enough.
 template <class Real>
 HWY_INLINE std::size_t apply_pushes(const CellPassArguments<Real>& a, std::size_t begin, std::size_t active,
-                                    int word_bits, const Batch& batch) {
+                                    int word_bits, Batch<Real>& batch) {
+    // Whoever is near an active point is one.
+    for (std::size_t n = 0; n < active; ++n)
+        load_place(a, a.order[begin + batch.active[n]], &batch.place[4 * batch.active[n]]);
     std::size_t total = 0;
     for (std::size_t n = 0; n < active; ++n) {
         const std::size_t k = batch.active[n], i = a.order[begin + k];
-        const std::uint32_t* bucket = a.order + begin + batch.bucket_begin[k];
-        PointPush<Real> push(a, i);
+        if (a.pinned[i])
+            continue;
+        const Real* bucket = &batch.place[4 * batch.bucket_begin[k]];
+        PointPush<Real> push(&batch.place[4 * k]);
         for (std::size_t w = 0; w < std::size_t{1} << word_bits; ++w)
             for (std::uint64_t left = batch.near[(k << word_bits) + w]; left != 0; left &= left - 1)
-                push.add(bucket[64 * w + static_cast<std::size_t>(std::countr_zero(left))]);
-        total += move_point(a, i, push);
+                push.add(bucket + 4 * (64 * w + static_cast<std::size_t>(std::countr_zero(left))), a.apart);
+        total += push.move(a.substeps);
+        store_place(a, i, &batch.place[4 * k]);
     }
     return total;
 }
@@ -274,18 +280,25 @@ template <class Real>
 HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
     std::size_t total = 0;
     for (std::size_t k = a.begin; k < a.end; ++k) {
-        const std::uint32_t bucket = a.key[a.order[k]] & a.mask;
-        PointPush<Real> push(a, a.order[k]);
+        const std::uint32_t bucket = a.key[k] & a.mask;
+        if (a.pinned[a.order[k]])
+            continue;
+        alignas(32) Real x[4], y[4];
+        load_place(a, a.order[k], x);
+        PointPush<Real> push(x);
         for (std::size_t q = a.bucket_begin[bucket]; q < a.bucket_begin[bucket + 1]; ++q) {
             float square = 0;
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const float v = a.sorted[axis][q] - a.sorted[axis][k];
                 square += v * v;
             }
-            if (square < a.reach_squared && q != k && same_cell(a, a.order[k], a.order[q]))
-                push.add(a.order[q]);
+            if (square < a.reach_squared && q != k && same_cell(a, k, q)) {
+                load_place(a, a.order[q], y);
+                push.add(y, a.apart);
+            }
         }
-        total += move_point(a, a.order[k], push);
+        total += push.move(a.substeps);
+        store_place(a, a.order[k], x);
     }
     return total;
 }
@@ -293,16 +306,16 @@ HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
 /// A bucket may hold several cells; only points of the same cell push each other, and so each pair counts once.
 template <class Real>
 std::size_t cell_pass(const CellPassArguments<Real>& a) {
-    if (HWY_UNLIKELY(a.largest_bucket > Batch::most_points))
+    if (HWY_UNLIKELY(a.largest_bucket > Batch<Real>::most_points))
         return crowded_pass(a); // its bits do not fit into a batch
     // Words of bits for each point: a power of two.
     const int word_bits = a.largest_bucket <= 64 ? 0 : static_cast<int>(std::bit_width((a.largest_bucket - 1) / 64));
-    Batch batch;
+    Batch<Real> batch;
     std::size_t total = 0;
     for (std::size_t begin = a.begin; begin < a.end;) {
-        std::size_t end = HWY_MIN(begin + Batch::most_points, a.end);
+        std::size_t end = HWY_MIN(begin + Batch<Real>::most_points, a.end);
         if (end < a.end)
-            end = a.bucket_begin[a.key[a.order[end]] & a.mask];
+            end = a.bucket_begin[a.key[end] & a.mask];
         const std::size_t active = word_bits == 0 ? find_near<true>(a, begin, end - begin, 0, batch)
                                                   : find_near<false>(a, begin, end - begin, word_bits, batch);
         total += apply_pushes(a, begin, active, word_bits, batch);

@@ -169,10 +169,9 @@ struct CellKeys {
 template <class Real>
 struct CellPassArguments {
     Axes<Real> x;                      ///< of all points; moved
-    Real* moving;                      ///< the same as x, y, z, 0 of each point
     ConstAxes<float> sorted;           ///< as they were, by bucket, from some origin; a vector of padding behind
     const std::uint32_t* order;        ///< point of each sorted entry; ascending in each bucket
-    const std::uint32_t* key;          ///< of each point's cell
+    const std::uint32_t* key;          ///< of each sorted entry's cell
     ConstAxes<Real> cell;              ///< of each point
     bool exact;                        ///< no two cells have the same key
     std::uint32_t mask;                ///< which bits of the key tell the bucket
@@ -204,9 +203,8 @@ struct Kernels {
     /// Keeps, in order, those of `count` pairs whose points are not at least the reach apart and lie in the same cell;
     /// returns how many, and the square of the least distance of such a pair.
     KeptPairs<Real> (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
-    /// Finds the cell of each point, whole numbers in Real, and a key of it, a vector of padding behind each; and
-    /// copies the points to `moving` as x, y, z, 0.
-    CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, const Axes<Real>& cell, std::uint32_t* key, Real* moving);
+    /// Finds the cell of each point, whole numbers in Real, and a key of it, a vector of padding behind each.
+    CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, const Axes<Real>& cell, std::uint32_t* key);
     /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
     std::size_t (*cell_pass)(const CellPassArguments<Real>&);
 };

@@ -183,6 +183,41 @@ TEST_CASE("Thousands of points in one cell, in few or at one place push each oth
     }
 }
 
+TEST_CASE("A push that is suddenly farther than any before touches whom it reaches", "[threads]") {
+    sim::Description description;
+    description.cloth.num_width_points = 24;
+    description.cloth.num_height_points = 20;
+    description.cloth.thickness = 0.4 / 24;
+    description.stepping.substeps = 4;
+    const double apart = 2 * description.cloth.thickness;
+    Sheet<float> plain(description, exactly(sim::InstructionSet::scalar, 1));
+    std::vector<Sheet<float>> others;
+    for (const sim::InstructionSet set : supported_sets())
+        if (set != sim::InstructionSet::scalar)
+            others.emplace_back(description, exactly(set, 2));
+    constexpr std::size_t pushed = 130, pusher = 131, reached = 154;
+    const sim::Vec3 middle{2.5 * plain.model.cell_x, 1.5 * plain.model.cell_y, 2.5 * plain.model.cell_z};
+    const auto beside = [&](double x) { return sim::Vec3{middle.x + x * apart, middle.y, middle.z}; };
+    for (int step = 0; step < 120; ++step) {
+        for (std::size_t i = 0; i < plain.points(); ++i) // out of each other's reach
+            plain.place(i, {static_cast<double>(i % 24) / 15, 1, static_cast<double>(i / 24) / 15});
+        // Two that hardly touch, for long; then they nearly coincide, and push one against a third.
+        const bool sudden = step == 119;
+        plain.place(pushed, middle);
+        plain.place(pusher, beside(sudden ? 0.02 : 0.999));
+        plain.place(reached, beside(sudden ? -1.2 : -5));
+        const sim::State<float> before = plain.state;
+        const std::size_t expected = sim::resolve_self_collision(plain.model, plain.state, plain.work);
+        REQUIRE(expected == (sudden ? 3 : 2)); // the third is touched when its turn comes, the first was before it
+        for (Sheet<float>& sheet : others) {
+            sheet.state = before;
+            INFO("step " << step);
+            REQUIRE(sim::resolve_self_collision(sheet.model, sheet.state, sheet.work) == expected);
+            REQUIRE(same_bits(sheet.state.position, plain.state.position));
+        }
+    }
+}
+
 TEST_CASE("The list with a skin misses no contact while two sheets slide past each other, far out as well",
           "[threads]") {
     sim::Description description;
