@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -14,20 +15,21 @@ namespace {
 
 /// Fewer buckets cost less to sort, but more of them hold several cells; as many points as this for each.
 constexpr std::size_t points_per_bucket = 8;
+/// Floats in the widest vector.
+constexpr std::size_t most_lanes = 16;
 
 std::uint32_t bucket_mask(std::size_t points) {
     return static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(points / points_per_bucket, 1)) - 1);
 }
 
-/// Counting sort of all points by bucket: `order` and the coordinates from `origin`; points of a bucket stay ascending.
-/// Sets where each bucket begins, and returns how many points the largest has. Neighbours along a row mostly share a
-/// cell: such runs are counted and placed as one.
+/// Counting sort of all points by bucket: `order`, and their fours. Points of a bucket stay ascending. Sets where each
+/// bucket begins, and returns how many points the largest has. Neighbours along a row mostly share a cell: such runs
+/// are counted and placed as one.
 template <class Real>
-std::size_t sort_by_bucket(const Vec3Array<Real>& position, SelfCollisionWork<Real>& work, std::array<Real, 3> origin,
-                           const Axes<float>& sorted, std::uint32_t mask) {
-    const std::size_t count = position.size(), buckets = std::size_t{mask} + 1;
+std::size_t sort_by_bucket(std::size_t count, SelfCollisionWork<Real>& work, const float* fours, float* sorted,
+                           std::uint32_t mask) {
+    const std::size_t buckets = std::size_t{mask} + 1;
     const std::uint32_t* key = work.key.data();
-    std::uint32_t* sorted_key = work.partners.data();
     std::uint32_t *run_end = work.run_end.data(), *next = work.cell_end.data();
     std::size_t runs = 0;
     for (std::size_t i = 0; i + 1 < count; ++i) {
@@ -51,10 +53,7 @@ std::size_t sort_by_bucket(const Vec3Array<Real>& position, SelfCollisionWork<Re
         std::size_t k = std::exchange(next[key[i] & mask], next[key[i] & mask] + run_end[run] - i);
         do {
             work.order[k] = i;
-            sorted_key[k] = key[i];
-            sorted[0][k] = static_cast<float>(position.x[i] - origin[0]);
-            sorted[1][k] = static_cast<float>(position.y[i] - origin[1]);
-            sorted[2][k] = static_cast<float>(position.z[i] - origin[2]);
+            std::memcpy(sorted + 4 * k, fours + 4 * std::size_t{i}, 4 * sizeof(float));
             ++k;
         } while (++i < run_end[run]);
     }
@@ -67,7 +66,7 @@ template <class Real>
 void prepare_cells(std::size_t points, SelfCollisionWork<Real>& work) {
     work.run_end.resize(points);
     work.bucket_begin.resize(bucket_mask(points) + std::size_t{2});
-    work.sorted_single.resize(3 * (points + CacheLineAllocator<float>::spare / sizeof(float)));
+    work.sorted.resize(8 * sizeof(float) * (points + most_lanes));
 }
 
 template <class Real>
@@ -76,22 +75,18 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     Vec3Array<Real>& position = state.position;
     const std::size_t count = position.size();
     const std::array<Real, 3> width{model.cell_x, model.cell_y, model.cell_z};
-    const std::size_t room = s.sorted_single.size() / 3;
-    const Axes<float> sorted{s.sorted_single.data(), s.sorted_single.data() + room, s.sorted_single.data() + 2 * room};
+    const auto [fours, sorted] = s.fours();
     const CellKeys<Real> keys =
-        work.kernels->cell_keys({std::as_const(position).axes(), count, width}, s.anchor.axes(), s.key.data());
+        work.kernels->cell_keys({std::as_const(position).axes(), count, width}, s.anchor.axes(), s.key.data(), fours);
     const auto bound = static_cast<double>(keys.largest);
-    std::array<Real, 3> origin{};
     double largest = bound; // of the coordinates in single precision
     if (keys.exact) {
         largest = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            origin[axis] = keys.low[axis] * width[axis];
+        for (std::size_t axis = 0; axis < 3; ++axis)
             largest = std::max(largest, static_cast<double>((keys.high[axis] - keys.low[axis] + 1) * width[axis]));
-        }
     }
     const std::uint32_t mask = bucket_mask(count);
-    const std::size_t largest_bucket = sort_by_bucket(position, s, origin, sorted, mask);
+    const std::size_t largest_bucket = sort_by_bucket(count, s, fours, sorted, mask);
 
     // Of points that are no longer finite, all that are not very far apart are looked at.
     constexpr double most = 1e19, rounding = std::numeric_limits<float>::epsilon();
@@ -99,9 +94,8 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
                              ? std::min(reach_of(model, farthest_push(model), bound) + 4 * rounding * largest, most)
                              : most;
     const CellPassArguments<Real> all{position.axes(),
-                                      {sorted[0], sorted[1], sorted[2]},
+                                      sorted,
                                       s.order.data(),
-                                      s.partners.data(),
                                       std::as_const(s.anchor).axes(),
                                       keys.exact,
                                       mask,
@@ -119,7 +113,7 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     const auto pass = [&](int index) {
         const auto cut = [&](int i) -> std::size_t {
             const std::size_t at = count * static_cast<std::size_t>(i) / static_cast<std::size_t>(threads);
-            return at == count ? count : s.bucket_begin[s.partners[at] & mask];
+            return at == count ? count : s.bucket_begin[s.key[s.order[at]] & mask];
         };
         CellPassArguments<Real> part = all;
         part.begin = cut(index);

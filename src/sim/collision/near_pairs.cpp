@@ -96,9 +96,8 @@ bool list_far_pairs(const Model<Real>& model, const Vec3Array<Real>& position, W
     std::uint32_t begin = 0;
     for (std::size_t c = 0; c < cells; ++c)
         begin += std::exchange(s.cell_end[c], begin);
-    const std::size_t room = s.sorted.size() / 4;
-    const Axes<Real> sorted{s.sorted.data(), s.sorted.data() + room, s.sorted.data() + 2 * room};
-    Real* index = s.sorted.data() + 3 * room;
+    const std::array<Real*, 4> sorted = s.sorted_axes();
+    Real* index = sorted[3];
     for (std::uint32_t i = 0; i < points; ++i) {
         const std::uint32_t k = s.cell_end[s.key[i]]++;
         s.order[k] = i;

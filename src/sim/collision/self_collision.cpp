@@ -97,7 +97,6 @@ void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work) {
     s.order.resize(points);
     s.key.resize(points);
     s.cell_end.resize(most_cells(points) + 1);
-    s.sorted.resize(4 * (points + CacheLineAllocator<Real>::spare / sizeof(Real)));
     prepare_cells(points, s);
 }
 

@@ -1,7 +1,9 @@
 // Memory of the self-collision stage.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -44,17 +46,28 @@ struct SelfCollisionWork {
     std::size_t pair_count = 0;          ///< so many first ones do
     std::vector<std::uint32_t> cursor;   ///< per point; all zero between steps
     std::vector<std::uint64_t> active;   ///< a bit per point; all zero between steps
-    std::vector<std::uint32_t> partners; ///< of the active points, one after the other; many contacts: `key` by `order`
+    std::vector<std::uint32_t> partners; ///< of the active points, one after the other
 
     // Points sorted by cell: while the list is made, and many contacts. Then there is no list, and `anchor` has the
     // cells of all points as whole numbers.
     AlignedVector<std::uint32_t> key;        ///< of each point's cell
     std::vector<std::uint32_t> order;        ///< points by cell
     std::vector<std::uint32_t> cell_end;     ///< per cell, or bucket of cells
-    AlignedVector<Real> sorted;              ///< while the list is made: four values per point
     std::vector<std::uint32_t> run_end;      ///< of points that follow each other in a cell
     std::vector<std::uint32_t> bucket_begin; ///< per bucket, and one more
-    AlignedVector<float> sorted_single;      ///< three coordinates per point
+    AlignedVector<std::byte> sorted; ///< the list: four Reals per point; many contacts: twice four floats per point
+
+    /// Three coordinates and the index, each a vector of padding behind.
+    std::array<Real*, 4> sorted_axes() {
+        Real* first = reinterpret_cast<Real*>(sorted.data());
+        const std::size_t room = sorted.size() / (4 * std::max(sizeof(Real), 2 * sizeof(float)));
+        return {first, first + room, first + 2 * room, first + 3 * room};
+    }
+    /// Fours of all points (Kernels::cell_keys), as they are and sorted.
+    std::array<float*, 2> fours() {
+        float* first = reinterpret_cast<float*>(sorted.data());
+        return {first, first + sorted.size() / (2 * sizeof(float))};
+    }
 };
 
 } // namespace clothlab::sim

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "sim/collision/push_sum.h"
@@ -58,7 +59,7 @@ HWY_INLINE CellKeys<Real> find_cells(const CellArguments<Real>& a, const Axes<Re
 }
 
 template <class Real>
-CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, std::uint32_t* key) {
+CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, std::uint32_t* key, float* fours) {
     const Tag<Real> d;
     const hn::Rebind<std::int32_t, Tag<Real>> di;
     CellKeys<Real> keys = find_cells(a, cell);
@@ -71,15 +72,25 @@ CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, s
     std::array<std::int32_t, 3> factor{73856093, 19349663, 83492791};
     if (keys.exact)
         factor = {1, static_cast<std::int32_t>(along[0]), static_cast<std::int32_t>(along[0] * along[1])};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        keys.origin[axis] = keys.exact ? keys.low[axis] * a.cell[axis] : Real(0);
 
     for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real)) {
         auto sum = hn::Zero(di);
+        const hn::Rebind<float, Tag<Real>> df;
+        hn::Vec<decltype(df)> x[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto from = hn::Set(d, keys.exact ? keys.low[axis] : Real(0));
             const auto place = whole<Real>(hn::Sub(hn::LoadU(d, cell[axis] + k), from));
             sum = hn::Add(sum, hn::Mul(place, hn::Set(di, factor[axis])));
+            const auto v = hn::Sub(hn::LoadU(d, a.x[axis] + k), hn::Set(d, keys.origin[axis]));
+            if constexpr (sizeof(Real) == sizeof(float))
+                x[axis] = v;
+            else
+                x[axis] = hn::DemoteTo(df, v);
         }
         hn::StoreU(sum, di, reinterpret_cast<std::int32_t*>(key + k));
+        hn::StoreInterleaved4(x[0], x[1], x[2], hn::BitCast(df, sum), df, fours + 4 * k);
     }
     return keys;
 }
@@ -90,6 +101,9 @@ struct Batch {
     static constexpr std::size_t most_points = 512, most_words = 4096;
     /// Of each point the others of its bucket that are near it: bits, counted from the bucket's first point.
     std::array<std::uint64_t, most_words> near;
+    /// Where the points were, a vector of padding behind each axis, and the keys of their cells.
+    alignas(64) std::array<std::array<float, most_points + HWY_LANES(float)>, 3> x;
+    alignas(64) std::array<std::uint32_t, most_points + HWY_LANES(float)> key;
     std::array<std::uint32_t, most_points> bucket_begin; ///< of each point's bucket
     std::array<std::uint32_t, most_points> later;        ///< points behind it in its bucket
     std::array<std::uint32_t, most_points> left;         ///< points that are not done yet
@@ -99,22 +113,30 @@ struct Batch {
     alignas(32) std::array<Real, 4 * most_points> place;
 };
 
-/// Whether two sorted points lie in the same cell.
 template <class Real>
-HWY_INLINE bool same_cell(const CellPassArguments<Real>& a, std::size_t k, std::size_t q) {
+HWY_INLINE std::uint32_t key_of(const CellPassArguments<Real>& a, std::size_t k) {
+    std::uint32_t key;
+    std::memcpy(&key, a.sorted + 4 * k + 3, sizeof key);
+    return key;
+}
+
+/// Whether two sorted points with these keys lie in the same cell.
+template <class Real>
+HWY_INLINE bool same_cell(const CellPassArguments<Real>& a, std::size_t k, std::size_t q, std::uint32_t key_of_k,
+                          std::uint32_t key_of_q) {
     if (HWY_LIKELY(a.exact))
-        return a.key[k] == a.key[q];
+        return key_of_k == key_of_q;
     const std::size_t i = a.order[k], j = a.order[q];
     return a.cell[0][i] == a.cell[0][j] && a.cell[1][i] == a.cell[1][j] && a.cell[2][i] == a.cell[2][j];
 }
 
-/// Which of the vector of points from k + first on are near sorted point k, that has `later` more in its bucket.
+/// Which of the vector of the batch's points from k + first on are near point k, that has `later` more in its bucket.
 template <class Real>
-HWY_INLINE std::uint64_t near_bits(const CellPassArguments<Real>& a, std::size_t k, std::size_t first,
-                                   std::uint64_t later) {
+HWY_INLINE std::uint64_t near_bits(const CellPassArguments<Real>& a, const Batch<Real>& batch, std::size_t k,
+                                   std::size_t first, std::uint64_t later) {
     const hn::ScalableTag<float> d;
     const auto minus = [&](std::size_t axis) HWY_ATTR {
-        return hn::Sub(hn::LoadU(d, a.sorted[axis] + k + first), hn::Set(d, a.sorted[axis][k]));
+        return hn::Sub(hn::LoadU(d, &batch.x[axis][k + first]), hn::Set(d, batch.x[axis][k]));
     };
     const Lane3<float> v{minus(0), minus(1), minus(2)};
     const std::uint64_t others = HWY_MIN(later + 1 - first, std::uint64_t{32});
@@ -131,7 +153,7 @@ HWY_INLINE void enter_found(const CellPassArguments<Real>& a, std::size_t begin,
         do {
             const std::size_t q = k + first + static_cast<std::size_t>(std::countr_zero(bits));
             bits &= bits - 1;
-            const std::uint64_t one = same_cell(a, begin + k, begin + q) ? 1 : 0;
+            const std::uint64_t one = same_cell(a, begin + k, begin + q, batch.key[k], batch.key[q]) ? 1 : 0;
             const auto enter = [&](std::size_t of, std::size_t other) {
                 const std::size_t word = one_word ? of : (of << word_bits) + (other - bucket) / 64;
                 batch.near[word] |= one << ((other - bucket) % 64);
@@ -150,14 +172,24 @@ HWY_INLINE std::size_t find_near(const CellPassArguments<Real>& a, std::size_t b
     constexpr std::size_t step = HWY_LANES(float);
     word_bits = one_word ? 0 : word_bits;
     std::fill_n(batch.near.begin(), count << word_bits, std::uint64_t{0});
+    const hn::ScalableTag<float> d;
+    const hn::RebindToUnsigned<decltype(d)> du;
+    for (std::size_t k = 0; k < count; k += step) {
+        Lane<float> x, y, z, key;
+        hn::LoadInterleaved4(d, a.sorted + 4 * (begin + k), x, y, z, key);
+        hn::Store(x, d, &batch.x[0][k]);
+        hn::Store(y, d, &batch.x[1][k]);
+        hn::Store(z, d, &batch.x[2][k]);
+        hn::Store(hn::BitCast(du, key), du, &batch.key[k]);
+    }
     // Each point against the vector of points behind it, ...
     std::size_t found = 0, left = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t bucket = a.key[begin + k] & a.mask;
+        const std::uint32_t bucket = batch.key[k] & a.mask;
         const std::uint32_t later = a.bucket_begin[bucket + 1] - static_cast<std::uint32_t>(begin + k + 1);
         batch.bucket_begin[k] = a.bucket_begin[bucket] - static_cast<std::uint32_t>(begin);
         batch.later[k] = later;
-        const std::uint64_t bits = near_bits(a, begin + k, 1, later);
+        const std::uint64_t bits = near_bits(a, batch, k, 1, later);
         batch.found[found] = bits << 32 | k;
         found += bits != 0 ? 1 : 0;
         batch.left[left] = static_cast<std::uint32_t>(k);
@@ -170,7 +202,7 @@ HWY_INLINE std::size_t find_near(const CellPassArguments<Real>& a, std::size_t b
         found = 0;
         for (std::size_t n = 0; n < left; ++n) {
             const std::size_t k = batch.left[n];
-            const std::uint64_t bits = near_bits(a, begin + k, first, batch.later[k]);
+            const std::uint64_t bits = near_bits(a, batch, k, first, batch.later[k]);
             batch.found[found] = bits << 32 | k;
             found += bits != 0 ? 1 : 0;
             batch.left[still_left] = static_cast<std::uint32_t>(k);
@@ -280,7 +312,7 @@ template <class Real>
 HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
     std::size_t total = 0;
     for (std::size_t k = a.begin; k < a.end; ++k) {
-        const std::uint32_t bucket = a.key[k] & a.mask;
+        const std::uint32_t key = key_of(a, k), bucket = key & a.mask;
         if (a.pinned[a.order[k]])
             continue;
         alignas(32) Real x[4], y[4];
@@ -289,10 +321,10 @@ HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
         for (std::size_t q = a.bucket_begin[bucket]; q < a.bucket_begin[bucket + 1]; ++q) {
             float square = 0;
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const float v = a.sorted[axis][q] - a.sorted[axis][k];
+                const float v = a.sorted[4 * q + axis] - a.sorted[4 * k + axis];
                 square += v * v;
             }
-            if (square < a.reach_squared && q != k && same_cell(a, k, q)) {
+            if (square < a.reach_squared && q != k && same_cell(a, k, q, key, key_of(a, q))) {
                 load_place(a, a.order[q], y);
                 push.add(y, a.apart);
             }
@@ -315,7 +347,7 @@ std::size_t cell_pass(const CellPassArguments<Real>& a) {
     for (std::size_t begin = a.begin; begin < a.end;) {
         std::size_t end = HWY_MIN(begin + Batch<Real>::most_points, a.end);
         if (end < a.end)
-            end = a.bucket_begin[a.key[end] & a.mask];
+            end = a.bucket_begin[key_of(a, end) & a.mask];
         const std::size_t active = word_bits == 0 ? find_near<true>(a, begin, end - begin, 0, batch)
                                                   : find_near<false>(a, begin, end - begin, word_bits, batch);
         total += apply_pushes(a, begin, active, word_bits, batch);

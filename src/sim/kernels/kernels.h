@@ -162,6 +162,8 @@ struct CellKeys {
     std::array<Real, 3> low, high; ///< bounds of the cells, whole numbers
     Real largest;                  ///< coordinate of a point, m
     bool exact;                    ///< no two cells have the same key
+    std::array<Real, 3>
+        origin; ///< m, of the points in single precision: a corner of the box around the cells, if exact
 };
 
 /// The course's self-collision among points that lie sorted by buckets of cells. Which may touch is looked up in single
@@ -169,9 +171,8 @@ struct CellKeys {
 template <class Real>
 struct CellPassArguments {
     Axes<Real> x;                      ///< of all points; moved
-    ConstAxes<float> sorted;           ///< as they were, by bucket, from some origin; a vector of padding behind
+    const float* sorted;               ///< fours of all points as they were (Kernels::cell_keys), by bucket
     const std::uint32_t* order;        ///< point of each sorted entry; ascending in each bucket
-    const std::uint32_t* key;          ///< of each sorted entry's cell
     ConstAxes<Real> cell;              ///< of each point
     bool exact;                        ///< no two cells have the same key
     std::uint32_t mask;                ///< which bits of the key tell the bucket
@@ -203,8 +204,10 @@ struct Kernels {
     /// Keeps, in order, those of `count` pairs whose points are not at least the reach apart and lie in the same cell;
     /// returns how many, and the square of the least distance of such a pair.
     KeptPairs<Real> (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
-    /// Finds the cell of each point, whole numbers in Real, and a key of it, a vector of padding behind each.
-    CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, const Axes<Real>& cell, std::uint32_t* key);
+    /// Finds the cell of each point, whole numbers in Real, and a key of it, a vector of padding behind each. Packs the
+    /// points into fours of x, y and z from the origin and the bits of the key, with padding for a vector of them
+    /// behind.
+    CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, const Axes<Real>& cell, std::uint32_t* key, float* fours);
     /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
     std::size_t (*cell_pass)(const CellPassArguments<Real>&);
 };
