@@ -6,9 +6,13 @@
 // force on a point is complete two rows after its own springs, and a window of two rows of unfinished forces is all
 // that has to be kept: it lies in the first-level cache up to some hundred columns.
 //
+// A vector's own springs wait for square roots and divisions, which take long and depend on nothing but positions; what
+// is done with forces of vectors some places before waits for nothing. So the two take turns, instruction by
+// instruction. The forces between lie in a block of memory, where a neighbour along the row is a load one lane further.
+//
 // A deviation from the design: no row is padded and there is no halo. Vectors run across row ends, and the lanes
-// whose neighbour does not exist are masked, which costs three comparisons and nine masked multiplications a vector;
-// padding 50 columns to 64 would cost 28 %.
+// whose neighbour does not exist are masked, which costs three comparisons and twelve masked values a vector; padding
+// 50 columns to 64 would cost 28 %.
 #if defined(CLOTHLAB_SIM_KERNELS_SPRING_SWEEP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLOTHLAB_SIM_KERNELS_SPRING_SWEEP_INL_H
 #undef CLOTHLAB_SIM_KERNELS_SPRING_SWEEP_INL_H
@@ -31,7 +35,14 @@ public:
     ForceWindow(Real* memory, std::ptrdiff_t columns, std::ptrdiff_t begin)
         : at_(memory), length_(sweep_window(static_cast<std::size_t>(columns))),
           base_(begin - 2 * columns - static_cast<std::ptrdiff_t>(sweep_grain)) {}
-    HWY_INLINE Lane3<Real> load(std::ptrdiff_t i) const { return load3(axes(), i - base_); }
+    template <std::size_t axis>
+    HWY_INLINE Lane<Real> load(std::ptrdiff_t i) const {
+        return hn::LoadU(Tag<Real>(), axes()[axis] + (i - base_));
+    }
+    template <std::size_t axis>
+    HWY_INLINE void store(Lane<Real> v, std::ptrdiff_t i) const {
+        hn::StoreU(v, Tag<Real>(), axes()[axis] + (i - base_));
+    }
     HWY_INLINE void store(const Lane3<Real>& v, std::ptrdiff_t i) const { store3(v, axes(), i - base_); }
     /// How far there is room.
     std::ptrdiff_t end() const { return base_ + length_; }
@@ -48,55 +59,71 @@ private:
     std::ptrdiff_t length_, base_;
 };
 
-/// What becomes of the complete forces on the points i, i + 1, ...
+/// What becomes of the complete forces f along one axis on points at x that were at p.
 template <SweepSink sink, class Real>
-HWY_INLINE Lane3<Real> swept(const SweepArguments<Real>& a, const Lane3<Real>& f, const ConstAxes<Real>& position,
-                             const ConstAxes<Real>& previous, std::ptrdiff_t i) {
-    const Tag<Real> d;
-    if constexpr (sink == SweepSink::force)
+HWY_INLINE Lane<Real> swept(const SweepArguments<Real>& a, Lane<Real> f, const Real* x, const Real* p) {
+    if constexpr (sink == SweepSink::force) {
         return f;
-    const Lane3<Real> x = load3(position, i), p = load3(previous, i);
-    Lane3<Real> moved = subtract3(x, p);
-    if constexpr (sink == SweepSink::verlet_damped)
-        moved = scale3<Real>(hn::Set(d, a.keep), moved);
-    return add3(add3(x, moved), scale3<Real>(hn::Set(d, a.c), f));
+    } else {
+        const Tag<Real> d;
+        const auto now = hn::LoadU(d, x);
+        auto moved = hn::Sub(now, hn::LoadU(d, p));
+        if constexpr (sink == SweepSink::verlet_damped)
+            moved = hn::Mul(hn::Set(d, a.keep), moved);
+        return hn::Add(hn::Add(now, moved), hn::Mul(hn::Set(d, a.c), f));
+    }
 }
 
 /// The same for a vector of which only some lanes are in the sweep's range: the others belong to another thread, or to
 /// nobody.
-template <SweepSink sink, class Real>
-HWY_NOINLINE void sweep_some(const SweepArguments<Real>& a, Lane3<Real> f, std::ptrdiff_t i) {
-    HWY_ALIGN Real x[3][HWY_LANES(Real)] = {}, p[3][HWY_LANES(Real)] = {};
+template <SweepSink sink, std::size_t axis, class Real>
+HWY_INLINE void sweep_some(const SweepArguments<Real>& a, Lane<Real> f, std::ptrdiff_t i) {
+    HWY_ALIGN Real x[HWY_LANES(Real)] = {}, p[HWY_LANES(Real)] = {};
     const std::ptrdiff_t from = std::max(static_cast<std::ptrdiff_t>(a.begin) - i, std::ptrdiff_t{0});
     const std::ptrdiff_t to = std::min(static_cast<std::ptrdiff_t>(a.end) - i, lanes<Real>);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::ptrdiff_t l = from; l < to; ++l) {
-            x[axis][l] = a.x[axis][i + l];
-            p[axis][l] = a.out[axis][i + l];
-        }
-    store3(swept<sink, Real>(a, f, {x[0], x[1], x[2]}, {p[0], p[1], p[2]}, 0), Axes<Real>{p[0], p[1], p[2]}, 0);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::ptrdiff_t l = from; l < to; ++l)
-            a.out[axis][i + l] = p[axis][l];
+    for (std::ptrdiff_t l = from; l < to; ++l) {
+        x[l] = a.x[axis][i + l];
+        p[l] = a.out[axis][i + l];
+    }
+    hn::Store(swept<sink, Real>(a, f, x, p), Tag<Real>(), p);
+    for (std::ptrdiff_t l = from; l < to; ++l)
+        a.out[axis][i + l] = p[l];
 }
 
-/// The forces of one stencil entry's springs on their own points, from x to those `other` further along the array.
+/// Forces of the own springs of a block of points and of some vectors before it, by stencil entry.
 template <class Real>
-HWY_INLINE Lane3<Real> spring_forces(const ConstAxes<Real>& axes, const Lane3<Real>& x, std::ptrdiff_t other,
-                                     Lane<Real> rest, Real k) {
-    const Tag<Real> d;
-    const Lane3<Real> v = subtract3(load3(axes, other), x);
-    const auto length = hn::Sqrt(dot3(v, v));
-    const auto pull = hn::Div(hn::Mul(hn::Set(d, k), hn::Sub(length, rest)), length);
-    return scale3<Real>(hn::IfThenElseZero(hn::Gt(length, hn::Zero(d)), pull), v);
-}
+class BlockForces {
+public:
+    /// Forces are looked at so many points after they were stored: by then, what is loaded across two stores has
+    /// reached the cache.
+    static constexpr std::ptrdiff_t lag = 2 * lanes<Real>, points = 2 * static_cast<std::ptrdiff_t>(sweep_grain);
 
-/// What one vector of points hands to the next: the forces of its own springs, their sum with gravity, and those of its
-/// springs to the upper right, moved by a lane to where they end, one row up.
-template <class Real>
-struct Handed {
-    Lane3<Real> up = zero3<Real>(), left = zero3<Real>(), upper_left = zero3<Real>(), upper_right = zero3<Real>(),
-                lower_left = zero3<Real>(), two_left = zero3<Real>(), two_up = zero3<Real>(), sum = zero3<Real>();
+    BlockForces() { // NOLINT: what no spring has stored is not looked at, but for what would lie before the first block
+        for (auto& entry : of_)
+            for (auto& axis : entry)
+                std::fill_n(axis, before, Real(0));
+    }
+    /// From point j of the block on, or before it.
+    template <std::size_t s, std::size_t axis>
+    HWY_INLINE Lane<Real> load(std::ptrdiff_t j) const {
+        return hn::LoadU(Tag<Real>(), of_[s][axis] + before + j);
+    }
+    template <std::size_t s>
+    HWY_INLINE void store(const Lane3<Real>& v, std::ptrdiff_t j) {
+        store3(v, Axes<Real>{of_[s][0] + before, of_[s][1] + before, of_[s][2] + before}, j);
+    }
+    /// The next block begins.
+    void go_on() {
+        const Tag<Real> d;
+        for (auto& entry : of_)
+            for (auto& axis : entry)
+                for (std::ptrdiff_t l = 0; l < before; l += lanes<Real>)
+                    hn::Store(hn::Load(d, axis + points + l), d, axis + l);
+    }
+
+private:
+    static constexpr std::ptrdiff_t before = lag + lanes<Real>; ///< a lane before the lag is looked at, too
+    HWY_ALIGN Real of_[stencil_size][3][static_cast<std::size_t>(before + points)];
 };
 
 enum class Place { inside, border, behind };
@@ -104,12 +131,13 @@ enum class Place { inside, border, behind };
 template <unsigned kinds, SweepSink sink, class Real>
 struct SpringSweep {
     static constexpr bool structural = (kinds & 1u) != 0, shear = (kinds & 2u) != 0, bending = (kinds & 4u) != 0;
-    static constexpr std::ptrdiff_t step = lanes<Real>;
+    static constexpr std::ptrdiff_t step = lanes<Real>, lag = BlockForces<Real>::lag;
+    using Block = BlockForces<Real>;
 
     const SweepArguments<Real> a;
     Columns<Real> column;
     ForceWindow<Real> window;
-    Handed<Real> before;
+    Block block;
 
     static void run(const SweepArguments<Real>& a) {
         const auto columns = static_cast<std::ptrdiff_t>(a.columns), points = static_cast<std::ptrdiff_t>(a.points);
@@ -117,21 +145,26 @@ struct SpringSweep {
         SpringSweep sweep{a, Columns<Real>(a.columns, a.begin), ForceWindow<Real>(a.scratch, columns, begin), {}};
         const ConstAxes<Real> head = begin == 0 ? copy_head(a) : a.x;
         const std::ptrdiff_t springs_end = std::min(points, end + 2 * columns);
-        const std::ptrdiff_t stop = end + 2 * columns + step; // complete after two rows more, and one vector more
-        for (std::ptrdiff_t i = begin; i < stop;) {
-            if (sweep.window.end() < i)
-                sweep.window.move(i - 2 * columns - step);
-            const std::ptrdiff_t vectors = (std::min(springs_end, sweep.window.end()) - i) / step;
-            if (i >= 2 * columns && vectors > 0) {
-                sweep.go_on_inside(i, i + vectors * step);
-                i += vectors * step;
-            } else {
-                if (i < springs_end)
-                    sweep.template go_on<Place::border>(i, i < 2 * columns ? head : a.x);
-                else
-                    sweep.template go_on<Place::behind>(i, a.x);
-                i += step;
+        // Forces are complete after two rows more, and are looked at some vectors later.
+        const std::ptrdiff_t late = 2 * columns + lag, stop = end + late;
+        for (std::ptrdiff_t from = begin; from < stop; from += Block::points) {
+            const std::ptrdiff_t to = std::min(from + Block::points, stop);
+            if (sweep.window.end() < from + Block::points)
+                sweep.window.move(from - late);
+            for (std::ptrdiff_t i = from; i < to;) {
+                const std::ptrdiff_t vectors = (std::min(springs_end, to) - i) / step;
+                if (i >= begin + late && vectors > 0) {
+                    sweep.go_on_inside(i, i - from, vectors);
+                    i += vectors * step;
+                } else {
+                    if (i < springs_end)
+                        sweep.template go_on<Place::border>(i, i - from, i < 2 * columns ? head : a.x);
+                    else
+                        sweep.template go_on<Place::behind>(i, i - from, a.x);
+                    i += step;
+                }
             }
+            sweep.block.go_on();
         }
     }
 
@@ -148,47 +181,62 @@ struct SpringSweep {
         return head;
     }
 
-    /// On copies of all that changes, so that it is kept in registers.
-    HWY_NOINLINE void go_on_inside(std::ptrdiff_t i, std::ptrdiff_t end) {
-        Handed<Real> handed = before;
+    /// Vectors from point i on, the block's point j. On copies of what changes and of what is read, so that it is kept
+    /// in registers.
+    HWY_NOINLINE void go_on_inside(std::ptrdiff_t i, std::ptrdiff_t j, std::ptrdiff_t vectors) {
         Columns<Real> at = column;
         const ForceWindow<Real> forces = window;
-        for (; i < end; i += step) {
-            advance<Place::inside>(a, forces, at, i, a.x, handed);
+        const SweepArguments<Real> arguments = a;
+        for (const std::ptrdiff_t end = j + vectors * step; j < end; i += step, j += step) {
+            advance<Place::inside>(arguments, forces, at, i, j, arguments.x, block);
             at.advance();
         }
-        before = handed;
         column = at;
     }
     template <Place place>
-    HWY_NOINLINE void go_on(std::ptrdiff_t i, const ConstAxes<Real>& axes) {
-        advance<place>(a, window, column, i, axes, before);
+    HWY_NOINLINE void go_on(std::ptrdiff_t i, std::ptrdiff_t j, const ConstAxes<Real>& axes) {
+        advance<place>(a, window, column, i, j, axes, block);
         column.advance();
     }
 
-    /// The forces of stencil entry s, masked where the spring does not exist.
+    /// What the springs of stencil entry s pull, over their length, and v, their vectors from the points at x.
     template <Place place, std::size_t s>
-    static HWY_INLINE Lane3<Real> spring(const SweepArguments<Real>& a, const ConstAxes<Real>& axes,
-                                         const Lane3<Real>& x, std::ptrdiff_t i, LaneMask<Real> exists) {
-        if constexpr (place == Place::behind) {
-            return zero3<Real>();
+    static HWY_INLINE Lane<Real> pull(const SweepArguments<Real>& a, const ConstAxes<Real>& axes, const Lane3<Real>& x,
+                                      std::ptrdiff_t i, Lane3<Real>& v) {
+        constexpr SpringStencil stencil = spring_stencil[s];
+        const Tag<Real> d;
+        if constexpr (place == Place::behind || (kinds >> static_cast<unsigned>(stencil.kind) & 1u) == 0) {
+            v = zero3<Real>();
+            return hn::Zero(d);
         } else {
-            constexpr SpringStencil stencil = spring_stencil[s];
             const Real k = stencil.kind == SpringKind::bending ? a.bending_k : a.k;
-            const auto rest = hn::LoadU(Tag<Real>(), a.rest.of[s] + (static_cast<std::size_t>(i) & a.rest.mask));
-            const std::ptrdiff_t other = i + stencil.rows * static_cast<std::ptrdiff_t>(a.columns) + stencil.columns;
-            const Lane3<Real> force = spring_forces(axes, x, other, rest, k);
-            return place == Place::inside && stencil.columns == 0 ? force : keep3<Real>(exists, force);
+            const auto rest = hn::LoadU(d, a.rest.of[s] + (static_cast<std::size_t>(i) & a.rest.mask));
+            v = subtract3(load3(axes, i + stencil.rows * static_cast<std::ptrdiff_t>(a.columns) + stencil.columns), x);
+            const auto length = hn::Sqrt(dot3(v, v));
+            const auto pull = hn::Div(hn::Mul(hn::Set(d, k), hn::Sub(length, rest)), length);
+            return hn::IfThenElseZero(hn::Gt(length, hn::Zero(d)), pull);
+        }
+    }
+    /// Adds the forces of stencil entry s, masked where the spring does not exist.
+    template <Place place, std::size_t s>
+    static HWY_INLINE void add(Lane<Real> pull, const Lane3<Real>& v, LaneMask<Real> exists, std::ptrdiff_t j,
+                               Block& block, Lane3<Real>& sum) {
+        constexpr SpringStencil stencil = spring_stencil[s];
+        if constexpr ((kinds >> static_cast<unsigned>(stencil.kind) & 1u) != 0) {
+            Lane3<Real> force = scale3<Real>(pull, v);
+            if constexpr (place != Place::inside || stencil.columns != 0)
+                force = keep3<Real>(exists, force);
+            block.template store<s>(force, j);
+            sum = add3(sum, force);
         }
     }
 
-    /// The own springs of the points i, i + 1, ...; then what those to the right pull at the vector before, what these
-    /// pull at the points a row above it, and what at the points two rows above it, on which the force is complete
-    /// then.
+    /// The own springs of the points i, i + 1, ..., the block's points j, j + 1, ..., in turns with what those
+    /// `lag` points before do to others.
     template <Place place>
     static HWY_INLINE void advance(const SweepArguments<Real>& a, const ForceWindow<Real>& window,
-                                   const Columns<Real>& column, std::ptrdiff_t i, const ConstAxes<Real>& axes,
-                                   Handed<Real>& before) {
+                                   const Columns<Real>& column, std::ptrdiff_t i, std::ptrdiff_t j,
+                                   const ConstAxes<Real>& axes, Block& block) {
         const auto columns = static_cast<std::ptrdiff_t>(a.columns);
         LaneMask<Real> has_left = column.has_left(), has_right = column.has_right(),
                        has_two_left = column.has_two_left(), below_first = has_left, below_second = has_left;
@@ -202,56 +250,65 @@ struct SpringSweep {
             has_left = hn::And(exists, has_left);
             has_two_left = hn::And(exists, has_two_left);
         }
-        const Lane3<Real> none = zero3<Real>();
-        const Lane3<Real> x = place == Place::behind ? none : load3(axes, i);
-        const Lane3<Real> up = structural ? spring<place, 0>(a, axes, x, i, below_first) : none;
-        const Lane3<Real> left = structural ? spring<place, 1>(a, axes, x, i, has_left) : none;
-        const Lane3<Real> upper_left = shear ? spring<place, 2>(a, axes, x, i, has_upper_left) : none;
-        const Lane3<Real> upper_right = shear ? spring<place, 3>(a, axes, x, i, has_right) : none;
-        const Lane3<Real> two_left = bending ? spring<place, 4>(a, axes, x, i, has_two_left) : none;
-        const Lane3<Real> two_up = bending ? spring<place, 5>(a, axes, x, i, below_second) : none;
+        const Lane3<Real> x = place == Place::behind ? zero3<Real>() : load3(axes, i);
         Lane3<Real> sum = set3(a.gravity[0], a.gravity[1], a.gravity[2]);
-        if constexpr (structural)
-            sum = add3(add3(sum, up), left);
-        if constexpr (shear)
-            sum = add3(add3(sum, upper_left), upper_right);
-        if constexpr (bending)
-            sum = add3(add3(sum, two_left), two_up);
+        Lane3<Real> v0, v1, v2, v3, v4, v5;
+        const auto up = pull<place, 0>(a, axes, x, i, v0);
+        const auto left = pull<place, 1>(a, axes, x, i, v1);
+        add<place, 0>(up, v0, below_first, j, block, sum);
+        pass_on<0>(window, i - lag, columns, j - lag, block);
+        const auto upper_left = pull<place, 2>(a, axes, x, i, v2);
+        add<place, 1>(left, v1, has_left, j, block, sum);
+        finish<place, 0>(a, window, i - lag, j - lag, block);
+        const auto upper_right = pull<place, 3>(a, axes, x, i, v3);
+        add<place, 2>(upper_left, v2, has_upper_left, j, block, sum);
+        pass_on<1>(window, i - lag, columns, j - lag, block);
+        const auto two_left = pull<place, 4>(a, axes, x, i, v4);
+        add<place, 3>(upper_right, v3, has_right, j, block, sum);
+        finish<place, 1>(a, window, i - lag, j - lag, block);
+        const auto two_up = pull<place, 5>(a, axes, x, i, v5);
+        add<place, 4>(two_left, v4, has_two_left, j, block, sum);
+        pass_on<2>(window, i - lag, columns, j - lag, block);
+        add<place, 5>(two_up, v5, below_second, j, block, sum);
+        finish<place, 2>(a, window, i - lag, j - lag, block);
+        window.store(sum, i);
+    }
 
-        Lane3<Real> f = before.sum;
+    /// What the springs of later points in the row pull at the points i, i + 1, ..., and what these points and their
+    /// neighbours pull at the points a row above.
+    template <std::size_t axis>
+    static HWY_INLINE void pass_on(const ForceWindow<Real>& window, std::ptrdiff_t i, std::ptrdiff_t columns,
+                                   std::ptrdiff_t j, const Block& block) {
+        auto f = window.template load<axis>(i);
         if constexpr (structural)
-            f = subtract3(f, shifted3<1>(left, before.left));
+            f = hn::Sub(f, block.template load<1, axis>(j + 1));
         if constexpr (bending)
-            f = subtract3(f, shifted3<2>(two_left, before.two_left));
-        const std::ptrdiff_t own = i - step, above = own - columns, two_above = above - columns;
-        window.store(f, own);
+            f = hn::Sub(f, block.template load<4, axis>(j + 2));
+        window.template store<axis>(f, i);
         if constexpr (structural || shear) {
-            f = window.load(above);
+            f = window.template load<axis>(i - columns);
             if constexpr (shear)
-                f = subtract3(f, before.lower_left);
+                f = hn::Sub(f, block.template load<3, axis>(j - 1));
             if constexpr (structural)
-                f = subtract3(f, before.up);
+                f = hn::Sub(f, block.template load<0, axis>(j));
             if constexpr (shear)
-                f = subtract3(f, shifted3<1>(upper_left, before.upper_left));
-            window.store(f, above);
+                f = hn::Sub(f, block.template load<2, axis>(j + 1));
+            window.template store<axis>(f, i - columns);
         }
-        f = window.load(two_above);
-        if constexpr (bending)
-            f = subtract3(f, before.two_up);
-        before.lower_left = shifted3<static_cast<int>(step) - 1>(upper_right, before.upper_right);
-        before.up = up;
-        before.left = left;
-        before.upper_left = upper_left;
-        before.upper_right = upper_right;
-        before.two_left = two_left;
-        before.two_up = two_up;
-        before.sum = sum;
-
+    }
+    /// What the points i, i + 1, ... pull at those two rows above, on which the force is complete then.
+    template <Place place, std::size_t axis>
+    static HWY_INLINE void finish(const SweepArguments<Real>& a, const ForceWindow<Real>& window, std::ptrdiff_t i,
+                                  std::ptrdiff_t j, const Block& block) {
         const auto begin = static_cast<std::ptrdiff_t>(a.begin), end = static_cast<std::ptrdiff_t>(a.end);
-        if (HWY_LIKELY(two_above >= begin && two_above + step <= end))
-            store3(swept<sink, Real>(a, f, a.x, {a.out[0], a.out[1], a.out[2]}, two_above), a.out, two_above);
-        else if (two_above + step > begin && two_above < end)
-            sweep_some<sink, Real>(a, f, two_above);
+        const std::ptrdiff_t to = i - 2 * static_cast<std::ptrdiff_t>(a.columns);
+        auto f = window.template load<axis>(to);
+        if constexpr (bending)
+            f = hn::Sub(f, block.template load<5, axis>(j));
+        if (place == Place::inside || (to >= begin && to + step <= end))
+            hn::StoreU(swept<sink, Real>(a, f, a.x[axis] + to, a.out[axis] + to), Tag<Real>(), a.out[axis] + to);
+        else if (to + step > begin && to < end)
+            sweep_some<sink, axis, Real>(a, f, to);
     }
 };
 
