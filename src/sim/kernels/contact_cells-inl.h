@@ -72,8 +72,9 @@ CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, s
     std::array<std::int32_t, 3> factor{73856093, 19349663, 83492791};
     if (keys.exact)
         factor = {1, static_cast<std::int32_t>(along[0]), static_cast<std::int32_t>(along[0] * along[1])};
+    std::array<Real, 3> origin;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        keys.origin[axis] = keys.exact ? keys.low[axis] * a.cell[axis] : Real(0);
+        origin[axis] = keys.exact ? keys.low[axis] * a.cell[axis] : Real(0);
 
     for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real)) {
         auto sum = hn::Zero(di);
@@ -83,7 +84,7 @@ CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, s
             const auto from = hn::Set(d, keys.exact ? keys.low[axis] : Real(0));
             const auto place = whole<Real>(hn::Sub(hn::LoadU(d, cell[axis] + k), from));
             sum = hn::Add(sum, hn::Mul(place, hn::Set(di, factor[axis])));
-            const auto v = hn::Sub(hn::LoadU(d, a.x[axis] + k), hn::Set(d, keys.origin[axis]));
+            const auto v = hn::Sub(hn::LoadU(d, a.x[axis] + k), hn::Set(d, origin[axis]));
             if constexpr (sizeof(Real) == sizeof(float))
                 x[axis] = v;
             else

@@ -162,8 +162,6 @@ struct CellKeys {
     std::array<Real, 3> low, high; ///< bounds of the cells, whole numbers
     Real largest;                  ///< coordinate of a point, m
     bool exact;                    ///< no two cells have the same key
-    std::array<Real, 3>
-        origin; ///< m, of the points in single precision: a corner of the box around the cells, if exact
 };
 
 /// The course's self-collision among points that lie sorted by buckets of cells. Which may touch is looked up in single
@@ -205,8 +203,8 @@ struct Kernels {
     /// returns how many, and the square of the least distance of such a pair.
     KeptPairs<Real> (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
     /// Finds the cell of each point, whole numbers in Real, and a key of it, a vector of padding behind each. Packs the
-    /// points into fours of x, y and z from the origin and the bits of the key, with padding for a vector of them
-    /// behind.
+    /// points into fours of x, y and z, in single precision from a corner of the box around the cells if they are
+    /// exact, and the bits of the key, with padding for a vector of them behind.
     CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, const Axes<Real>& cell, std::uint32_t* key, float* fours);
     /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
     std::size_t (*cell_pass)(const CellPassArguments<Real>&);

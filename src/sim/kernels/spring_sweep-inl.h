@@ -98,7 +98,8 @@ public:
     /// reached the cache.
     static constexpr std::ptrdiff_t lag = 2 * lanes<Real>, points = 2 * static_cast<std::ptrdiff_t>(sweep_grain);
 
-    BlockForces() { // NOLINT: what no spring has stored is not looked at, but for what would lie before the first block
+    /// Before the first block there is nothing; what is in it has been stored when it is looked at.
+    BlockForces() {
         for (auto& entry : of_)
             for (auto& axis : entry)
                 std::fill_n(axis, before, Real(0));
