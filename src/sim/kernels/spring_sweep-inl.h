@@ -7,8 +7,8 @@
 // that has to be kept: it lies in the first-level cache up to some hundred columns.
 //
 // A vector's own springs wait for square roots and divisions, which take long and depend on nothing but positions; what
-// is done with forces of vectors some places before waits for nothing. So the two take turns, instruction by
-// instruction. The forces between lie in a block of memory, where a neighbour along the row is a load one lane further.
+// is done with forces of vectors some places before waits for nothing. So the two take turns, spring by spring. The
+// forces between lie in a block of memory, where a neighbour along the row is a load one lane further.
 //
 // A deviation from the design: no row is padded and there is no halo. Vectors run across row ends, and the lanes
 // whose neighbour does not exist are masked, which costs three comparisons and twelve masked values a vector; padding
@@ -133,6 +133,8 @@ template <unsigned kinds, SweepSink sink, class Real>
 struct SpringSweep {
     static constexpr bool structural = (kinds & 1u) != 0, shear = (kinds & 2u) != 0, bending = (kinds & 4u) != 0;
     static constexpr std::ptrdiff_t step = lanes<Real>, lag = BlockForces<Real>::lag;
+    template <std::size_t s>
+    static constexpr bool pulls = (kinds >> static_cast<unsigned>(spring_stencil[s].kind) & 1u) != 0;
     using Block = BlockForces<Real>;
 
     const SweepArguments<Real> a;
@@ -206,7 +208,7 @@ struct SpringSweep {
                                       std::ptrdiff_t i, Lane3<Real>& v) {
         constexpr SpringStencil stencil = spring_stencil[s];
         const Tag<Real> d;
-        if constexpr (place == Place::behind || (kinds >> static_cast<unsigned>(stencil.kind) & 1u) == 0) {
+        if constexpr (place == Place::behind || !pulls<s>) {
             v = zero3<Real>();
             return hn::Zero(d);
         } else {
@@ -222,10 +224,9 @@ struct SpringSweep {
     template <Place place, std::size_t s>
     static HWY_INLINE void add(Lane<Real> pull, const Lane3<Real>& v, LaneMask<Real> exists, std::ptrdiff_t j,
                                Block& block, Lane3<Real>& sum) {
-        constexpr SpringStencil stencil = spring_stencil[s];
-        if constexpr ((kinds >> static_cast<unsigned>(stencil.kind) & 1u) != 0) {
+        if constexpr (pulls<s>) {
             Lane3<Real> force = scale3<Real>(pull, v);
-            if constexpr (place != Place::inside || stencil.columns != 0)
+            if constexpr (place != Place::inside || spring_stencil[s].columns != 0)
                 force = keep3<Real>(exists, force);
             block.template store<s>(force, j);
             sum = add3(sum, force);
