@@ -93,7 +93,7 @@ TEST_CASE("The bench times every kernel that this machine has, in every case and
     REQUIRE(table.summary.empty()); // it is about other sizes
 }
 
-TEST_CASE("Runs of the same precision that are timed together do the same steps", "[threads]") {
+TEST_CASE("Runs of the same precision that are timed together do the same steps") {
     BenchConfig config = tiny("falling");
     config.sizes = {24};
     const BenchTable table = run_bench(config);
@@ -110,7 +110,7 @@ TEST_CASE("Runs of the same precision that are timed together do the same steps"
     }
 }
 
-TEST_CASE("A filter leaves the runs it matches, and the textbook's to compare them with", "[threads]") {
+TEST_CASE("A filter leaves the runs it matches, and the textbook's to compare them with") {
     const BenchTable table = run_bench(tiny("^(springs|falling)/8/single/scalar"));
     REQUIRE(table.groups.size() == 2);
     for (const BenchGroup& group : table.groups) {
