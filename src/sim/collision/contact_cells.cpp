@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -15,18 +13,18 @@ namespace {
 
 /// Fewer buckets cost less to sort, but more of them hold several cells; as many points as this for each.
 constexpr std::size_t points_per_bucket = 8;
-/// Floats in the widest vector.
-constexpr std::size_t most_lanes = 16;
+/// Places in the widest vector.
+constexpr std::size_t most_lanes = 32;
 
-std::uint32_t bucket_mask(std::size_t points) {
-    return static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(points / points_per_bucket, 1)) - 1);
+int bucket_bits(std::size_t points) {
+    return std::countr_zero(std::bit_ceil(std::max<std::size_t>(points / points_per_bucket, 1)));
 }
 
-/// Counting sort of all points by bucket: `order`, and their fours. Points of a bucket stay ascending. Sets where each
+/// Counting sort of all points by bucket: `order`, and their places. Points of a bucket stay ascending. Sets where each
 /// bucket begins, and returns how many points the largest has. Neighbours along a row mostly share a cell: such runs
 /// are counted and placed as one.
 template <class Real>
-std::size_t sort_by_bucket(std::size_t count, SelfCollisionWork<Real>& work, const float* fours, float* sorted,
+std::size_t sort_by_bucket(std::size_t count, SelfCollisionWork<Real>& work, const CellPlace* places, CellPlace* sorted,
                            std::uint32_t mask) {
     const std::size_t buckets = std::size_t{mask} + 1;
     const std::uint32_t* key = work.key.data();
@@ -53,7 +51,7 @@ std::size_t sort_by_bucket(std::size_t count, SelfCollisionWork<Real>& work, con
         std::size_t k = std::exchange(next[key[i] & mask], next[key[i] & mask] + run_end[run] - i);
         do {
             work.order[k] = i;
-            std::memcpy(sorted + 4 * k, fours + 4 * std::size_t{i}, 4 * sizeof(float));
+            sorted[k] = places[i];
             ++k;
         } while (++i < run_end[run]);
     }
@@ -65,8 +63,8 @@ std::size_t sort_by_bucket(std::size_t count, SelfCollisionWork<Real>& work, con
 template <class Real>
 void prepare_cells(std::size_t points, SelfCollisionWork<Real>& work) {
     work.run_end.resize(points);
-    work.bucket_begin.resize(bucket_mask(points) + std::size_t{2});
-    work.sorted.resize(8 * sizeof(float) * (points + most_lanes));
+    work.bucket_begin.resize((std::size_t{1} << bucket_bits(points)) + 1);
+    work.sorted.resize(std::max(4 * sizeof(Real), 2 * sizeof(CellPlace)) * (points + most_lanes));
 }
 
 template <class Real>
@@ -75,37 +73,32 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     Vec3Array<Real>& position = state.position;
     const std::size_t count = position.size();
     const std::array<Real, 3> width{model.cell_x, model.cell_y, model.cell_z};
-    const auto [fours, sorted] = s.fours();
-    const CellKeys<Real> keys =
-        work.kernels->cell_keys({std::as_const(position).axes(), count, width}, s.anchor.axes(), s.key.data(), fours);
-    const auto bound = static_cast<double>(keys.largest);
-    double largest = bound; // of the coordinates in single precision
-    if (keys.exact) {
-        largest = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            largest = std::max(largest, static_cast<double>((keys.high[axis] - keys.low[axis] + 1) * width[axis]));
-    }
-    const std::uint32_t mask = bucket_mask(count);
-    const std::size_t largest_bucket = sort_by_bucket(count, s, fours, sorted, mask);
+    const auto [places, sorted] = s.places();
+    const int bits = bucket_bits(count);
+    const CellKeys<Real> keys = work.kernels->cell_keys({std::as_const(position).axes(), count, width}, bits,
+                                                        s.anchor.axes(), s.key.data(), places);
+    const std::uint32_t mask = (std::uint32_t{1} << bits) - 1;
+    const std::size_t largest_bucket = sort_by_bucket(count, s, places, sorted, mask);
 
     // Of points that are no longer finite, all that are not very far apart are looked at.
-    constexpr double most = 1e19, rounding = std::numeric_limits<float>::epsilon();
-    const double reach = std::isfinite(bound)
-                             ? std::min(reach_of(model, farthest_push(model), bound) + 4 * rounding * largest, most)
-                             : most;
+    constexpr double most = 1e19;
+    const auto bound = static_cast<double>(keys.largest);
+    const double reach = std::isfinite(bound) ? std::min(reach_of(model, farthest_push(model), bound), most) : most;
+    // Each coordinate is rounded to a unit, and the numbers that are rounded are not exact.
+    const double units = reach * cell_units / *std::max_element(width.begin(), width.end()) + 3;
     const CellPassArguments<Real> all{position.axes(),
                                       sorted,
                                       s.order.data(),
                                       std::as_const(s.anchor).axes(),
                                       keys.exact,
-                                      mask,
                                       s.bucket_begin.data(),
                                       largest_bucket,
                                       0,
-                                      count,
+                                      mask + std::size_t{1},
                                       model.pinned.data(),
                                       Real(2) * model.thickness,
-                                      static_cast<float>(reach * reach * (1 + 1e-6)),
+                                      static_cast<Real>(reach * reach * (1 + 1e-6)),
+                                      static_cast<std::int16_t>(std::min(units * units / 65536, 32767.0)),
                                       static_cast<Real>(model.substeps)};
     const int threads = work.pool ? work.choice.threads() : 1;
     if (threads == 1)
@@ -113,7 +106,7 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     const auto pass = [&](int index) {
         const auto cut = [&](int i) -> std::size_t {
             const std::size_t at = count * static_cast<std::size_t>(i) / static_cast<std::size_t>(threads);
-            return at == count ? count : s.bucket_begin[s.key[s.order[at]] & mask];
+            return at == count ? all.end : s.key[s.order[at]] & mask;
         };
         CellPassArguments<Real> part = all;
         part.begin = cut(index);

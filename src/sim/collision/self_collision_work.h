@@ -55,18 +55,18 @@ struct SelfCollisionWork {
     std::vector<std::uint32_t> cell_end;     ///< per cell, or bucket of cells
     std::vector<std::uint32_t> run_end;      ///< of points that follow each other in a cell
     std::vector<std::uint32_t> bucket_begin; ///< per bucket, and one more
-    AlignedVector<std::byte> sorted; ///< the list: four Reals per point; many contacts: twice four floats per point
+    AlignedVector<std::byte> sorted; ///< the list: four Reals per point; many contacts: two places per point
 
     /// Three coordinates and the index, each a vector of padding behind.
     std::array<Real*, 4> sorted_axes() {
         Real* first = reinterpret_cast<Real*>(sorted.data());
-        const std::size_t room = sorted.size() / (4 * std::max(sizeof(Real), 2 * sizeof(float)));
+        const std::size_t room = sorted.size() / (4 * sizeof(Real));
         return {first, first + room, first + 2 * room, first + 3 * room};
     }
-    /// Fours of all points (Kernels::cell_keys), as they are and sorted.
-    std::array<float*, 2> fours() {
-        float* first = reinterpret_cast<float*>(sorted.data());
-        return {first, first + sorted.size() / (2 * sizeof(float))};
+    /// Places of all points (Kernels::cell_keys), as they are and sorted.
+    std::array<CellPlace*, 2> places() {
+        auto* first = reinterpret_cast<CellPlace*>(sorted.data());
+        return {first, first + sorted.size() / (2 * sizeof(CellPlace))};
     }
 };
 

@@ -59,41 +59,70 @@ HWY_INLINE CellKeys<Real> find_cells(const CellArguments<Real>& a, const Axes<Re
 }
 
 template <class Real>
-CellKeys<Real> cell_keys(const CellArguments<Real>& a, const Axes<Real>& cell, std::uint32_t* key, float* fours) {
+CellKeys<Real> cell_keys(const CellArguments<Real>& a, int bucket_bits, const Axes<Real>& cell, std::uint32_t* key,
+                         CellPlace* places) {
     const Tag<Real> d;
     const hn::Rebind<std::int32_t, Tag<Real>> di;
+    const hn::Rebind<std::uint32_t, Tag<Real>> du;
     CellKeys<Real> keys = find_cells(a, cell);
     // In a box that is not too large a cell's key is its place there, and otherwise some sum. Few enough along each
-    // axis that a float tells them apart, few enough in all for an integer.
+    // axis that a float tells them apart, few enough in all for an integer, and for a place.
     std::array<double, 3> along;
     for (std::size_t axis = 0; axis < 3; ++axis)
         along[axis] = static_cast<double>(keys.high[axis]) - static_cast<double>(keys.low[axis]) + 1;
-    keys.exact = along[0] < 8e6 && along[1] < 8e6 && along[2] < 8e6 && along[0] * along[1] * along[2] < 2e9;
+    const double most = HWY_MIN(2e9, std::ldexp(no_cell, bucket_bits));
+    keys.exact = along[0] < 8e6 && along[1] < 8e6 && along[2] < 8e6 && along[0] * along[1] * along[2] < most;
     std::array<std::int32_t, 3> factor{73856093, 19349663, 83492791};
     if (keys.exact)
         factor = {1, static_cast<std::int32_t>(along[0]), static_cast<std::int32_t>(along[0] * along[1])};
-    std::array<Real, 3> origin;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        origin[axis] = keys.exact ? keys.low[axis] * a.cell[axis] : Real(0);
+    const Real longest = HWY_MAX(HWY_MAX(a.cell[0], a.cell[1]), a.cell[2]);
 
+    const auto zero = hn::Zero(d);
     for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real)) {
         auto sum = hn::Zero(di);
-        const hn::Rebind<float, Tag<Real>> df;
-        hn::Vec<decltype(df)> x[3];
+        auto all = zero;
+        hn::Vec<decltype(du)> place[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto c = hn::LoadU(d, cell[axis] + k);
             const auto from = hn::Set(d, keys.exact ? keys.low[axis] : Real(0));
-            const auto place = whole<Real>(hn::Sub(hn::LoadU(d, cell[axis] + k), from));
-            sum = hn::Add(sum, hn::Mul(place, hn::Set(di, factor[axis])));
-            const auto v = hn::Sub(hn::LoadU(d, a.x[axis] + k), hn::Set(d, origin[axis]));
-            if constexpr (sizeof(Real) == sizeof(float))
-                x[axis] = v;
-            else
-                x[axis] = hn::DemoteTo(df, v);
+            const auto column = whole<Real>(hn::Sub(c, from));
+            sum = hn::Add(sum, hn::Mul(column, hn::Set(di, factor[axis])));
+            const auto per_metre = hn::Set(d, Real(cell_units) / longest);
+            const auto side = hn::Set(d, Real(cell_units) / longest * a.cell[axis]);
+            const auto inside = hn::Sub(hn::Mul(hn::LoadU(d, a.x[axis] + k), per_metre), hn::Mul(c, side));
+            all = hn::Add(all, inside);
+            const auto unit = whole<Real>(hn::Min(hn::Max(inside, zero), hn::Set(d, Real(cell_units))));
+            place[axis] = hn::And(hn::BitCast(du, unit), hn::Set(du, 0xffffu));
         }
-        hn::StoreU(sum, di, reinterpret_cast<std::int32_t*>(key + k));
-        hn::StoreInterleaved4(x[0], x[1], x[2], hn::BitCast(df, sum), df, fours + 4 * k);
+        const auto bits = hn::BitCast(du, sum);
+        hn::StoreU(bits, du, key + k);
+        // Only numbers equal themselves.
+        const auto none = whole<Real>(hn::IfThenElseZero(hn::Ne(all, all), hn::Set(d, Real(no_cell))));
+        const auto which = hn::Or(hn::ShiftRightSame(bits, bucket_bits), hn::BitCast(du, none));
+        hn::StoreInterleaved2(hn::Or(place[0], hn::ShiftLeft<16>(place[1])), hn::Or(place[2], hn::ShiftLeft<16>(which)),
+                              du, reinterpret_cast<std::uint32_t*>(places + k));
     }
     return keys;
+}
+
+/// Vectors of places.
+using PlaceTag = hn::ScalableTag<std::int16_t>;
+using PlaceLane = hn::Vec<PlaceTag>;
+constexpr std::size_t place_lanes = HWY_LANES(std::int16_t);
+
+/// One bit per lane of a mask.
+HWY_INLINE std::uint64_t place_bits(hn::Mask<PlaceTag> mask) {
+#if HWY_TARGET == HWY_AVX3
+    return mask.raw;
+#elif HWY_TARGET == HWY_AVX2
+    return _pext_u32(static_cast<std::uint32_t>(_mm256_movemask_epi8(mask.raw)), 0xaaaaaaaau);
+#else
+    std::uint64_t bits = 0;
+    std::uint8_t bytes[8] = {}; // the function may write as many
+    hn::StoreMaskBits(PlaceTag(), mask, bytes);
+    std::memcpy(&bits, bytes, sizeof bits);
+    return bits & ((std::uint64_t{1} << place_lanes) - 1);
+#endif
 }
 
 /// Points that are gone through together, whole buckets of them. Index: the place in the batch.
@@ -102,118 +131,79 @@ struct Batch {
     static constexpr std::size_t most_points = 512, most_words = 4096;
     /// Of each point the others of its bucket that are near it: bits, counted from the bucket's first point.
     std::array<std::uint64_t, most_words> near;
-    /// Where the points were, a vector of padding behind each axis, and the keys of their cells.
-    alignas(64) std::array<std::array<float, most_points + HWY_LANES(float)>, 3> x;
-    alignas(64) std::array<std::uint32_t, most_points + HWY_LANES(float)> key;
-    std::array<std::uint32_t, most_points> bucket_begin; ///< of each point's bucket
-    std::array<std::uint32_t, most_points> later;        ///< points behind it in its bucket
-    std::array<std::uint32_t, most_points> left;         ///< points that are not done yet
-    std::array<std::uint64_t, most_points> found;  ///< a point that is near others and, above, which of the next vector
+    /// Of CellPlace, a vector of padding behind each.
+    alignas(64) std::array<std::array<std::int16_t, most_points + place_lanes>, 4> place;
+    alignas(64) std::array<std::uint16_t, most_points + place_lanes> bucket_begin; ///< of each point's bucket
+    alignas(64) std::array<std::uint16_t, most_points + place_lanes> bucket_size;  ///< points
+    std::array<std::uint32_t, most_points> left;   ///< points that are not done yet
     std::array<std::uint32_t, most_points> active; ///< points with a bit, ascending
     /// x, y, z, 0 of the active ones, where they are by now.
-    alignas(32) std::array<Real, 4 * most_points> place;
+    alignas(32) std::array<Real, 4 * most_points> x;
 };
 
+/// Fills in where the points of the buckets [begin, end) are.
 template <class Real>
-HWY_INLINE std::uint32_t key_of(const CellPassArguments<Real>& a, std::size_t k) {
-    std::uint32_t key;
-    std::memcpy(&key, a.sorted + 4 * k + 3, sizeof key);
-    return key;
-}
-
-/// Whether two sorted points with these keys lie in the same cell.
-template <class Real>
-HWY_INLINE bool same_cell(const CellPassArguments<Real>& a, std::size_t k, std::size_t q, std::uint32_t key_of_k,
-                          std::uint32_t key_of_q) {
-    if (HWY_LIKELY(a.exact))
-        return key_of_k == key_of_q;
-    const std::size_t i = a.order[k], j = a.order[q];
-    return a.cell[0][i] == a.cell[0][j] && a.cell[1][i] == a.cell[1][j] && a.cell[2][i] == a.cell[2][j];
-}
-
-/// Which of the vector of the batch's points from k + first on are near point k, that has `later` more in its bucket.
-template <class Real>
-HWY_INLINE std::uint64_t near_bits(const CellPassArguments<Real>& a, const Batch<Real>& batch, std::size_t k,
-                                   std::size_t first, std::uint64_t later) {
-    const hn::ScalableTag<float> d;
-    const auto minus = [&](std::size_t axis) HWY_ATTR {
-        return hn::Sub(hn::LoadU(d, &batch.x[axis][k + first]), hn::Set(d, batch.x[axis][k]));
-    };
-    const Lane3<float> v{minus(0), minus(1), minus(2)};
-    const std::uint64_t others = HWY_MIN(later + 1 - first, std::uint64_t{32});
-    return bits_of<float>(hn::Lt(dot3(v, v), hn::Set(d, a.reach_squared))) & ((std::uint64_t{1} << others) - 1);
-}
-
-/// Enters what was found of the vectors from `first` behind the points: for both points of each pair.
-template <bool one_word, class Real>
-HWY_INLINE void enter_found(const CellPassArguments<Real>& a, std::size_t begin, std::size_t found, std::size_t first,
-                            int word_bits, Batch<Real>& batch) {
-    for (std::size_t n = 0; n < found; ++n) {
-        const std::size_t k = batch.found[n] & 0xffffffffu, bucket = batch.bucket_begin[k];
-        std::uint64_t bits = batch.found[n] >> 32;
-        do {
-            const std::size_t q = k + first + static_cast<std::size_t>(std::countr_zero(bits));
-            bits &= bits - 1;
-            const std::uint64_t one = same_cell(a, begin + k, begin + q, batch.key[k], batch.key[q]) ? 1 : 0;
-            const auto enter = [&](std::size_t of, std::size_t other) {
-                const std::size_t word = one_word ? of : (of << word_bits) + (other - bucket) / 64;
-                batch.near[word] |= one << ((other - bucket) % 64);
-            };
-            enter(k, q);
-            enter(q, k);
-        } while (bits != 0);
+HWY_INLINE void load_batch(const CellPassArguments<Real>& a, std::size_t begin, std::size_t end, Batch<Real>& batch) {
+    const PlaceTag d;
+    const hn::RebindToUnsigned<PlaceTag> du;
+    const std::size_t first = a.bucket_begin[begin], count = a.bucket_begin[end] - first;
+    const auto* places = reinterpret_cast<const std::int16_t*>(a.places + first);
+    for (std::size_t k = 0; k < count; k += place_lanes) {
+        PlaceLane v[4];
+        hn::LoadInterleaved4(d, places + 4 * k, v[0], v[1], v[2], v[3]);
+        for (std::size_t i = 0; i < 4; ++i)
+            hn::Store(v[i], d, &batch.place[i][k]);
+    }
+    for (std::size_t b = begin; b < end; ++b) { // the next bucket's points overwrite what is too much
+        const std::size_t from = a.bucket_begin[b] - first, to = a.bucket_begin[b + 1] - first;
+        for (std::size_t k = from; k < to; k += place_lanes) {
+            hn::StoreU(hn::Set(du, static_cast<std::uint16_t>(from)), du, &batch.bucket_begin[k]);
+            hn::StoreU(hn::Set(du, static_cast<std::uint16_t>(to - from)), du, &batch.bucket_size[k]);
+        }
     }
 }
 
-/// Finds which points of each bucket are near each other before any is moved: sorted points from `begin` on. Returns
-/// how many points have others near them. Without a branch for each point, of which few are near others.
+/// Finds which points of each bucket are near each other before any is moved: `count` points of the batch. Returns how
+/// many points have others near them. Without a branch for each point, of which few are near others.
 template <bool one_word, class Real>
-HWY_INLINE std::size_t find_near(const CellPassArguments<Real>& a, std::size_t begin, std::size_t count, int word_bits,
-                                 Batch<Real>& batch) {
-    constexpr std::size_t step = HWY_LANES(float);
+HWY_INLINE std::size_t find_near(std::int16_t most, std::size_t count, int word_bits, Batch<Real>& batch) {
+    constexpr std::size_t step = place_lanes;
     word_bits = one_word ? 0 : word_bits;
-    std::fill_n(batch.near.begin(), count << word_bits, std::uint64_t{0});
-    const hn::ScalableTag<float> d;
-    const hn::RebindToUnsigned<decltype(d)> du;
-    for (std::size_t k = 0; k < count; k += step) {
-        Lane<float> x, y, z, key;
-        hn::LoadInterleaved4(d, a.sorted + 4 * (begin + k), x, y, z, key);
-        hn::Store(x, d, &batch.x[0][k]);
-        hn::Store(y, d, &batch.x[1][k]);
-        hn::Store(z, d, &batch.x[2][k]);
-        hn::Store(hn::BitCast(du, key), du, &batch.key[k]);
-    }
-    // Each point against the vector of points behind it, ...
-    std::size_t found = 0, left = 0;
+    const PlaceTag d;
+    // Which of the vector of points from `first` on of the bucket are near point k: itself, too.
+    const auto near_bits = [&](std::size_t k, std::size_t first) HWY_ATTR {
+        const std::size_t other = batch.bucket_begin[k] + first;
+        const auto square = [&](std::size_t axis) HWY_ATTR {
+            const auto v = hn::Sub(hn::LoadU(d, &batch.place[axis][other]), hn::Set(d, batch.place[axis][k]));
+            return hn::MulHigh(v, v);
+        };
+        const auto same = hn::Eq(hn::LoadU(d, &batch.place[3][other]), hn::Set(d, batch.place[3][k]));
+        const auto sum = hn::SaturatedAdd(hn::SaturatedAdd(square(0), square(1)), square(2));
+        const std::size_t others = HWY_MIN(batch.bucket_size[k] - first, step);
+        return place_bits(hn::AndNot(hn::Gt(sum, hn::Set(d, most)), same)) & (~std::uint64_t{0} >> (64 - others));
+    };
+    if (!one_word)
+        std::fill_n(batch.near.begin(), count << word_bits, std::uint64_t{0});
+    std::size_t left = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t bucket = batch.key[k] & a.mask;
-        const std::uint32_t later = a.bucket_begin[bucket + 1] - static_cast<std::uint32_t>(begin + k + 1);
-        batch.bucket_begin[k] = a.bucket_begin[bucket] - static_cast<std::uint32_t>(begin);
-        batch.later[k] = later;
-        const std::uint64_t bits = near_bits(a, batch, k, 1, later);
-        batch.found[found] = bits << 32 | k;
-        found += bits != 0 ? 1 : 0;
+        batch.near[k << word_bits] = near_bits(k, 0);
         batch.left[left] = static_cast<std::uint32_t>(k);
-        left += later > step ? 1 : 0;
+        left += batch.bucket_size[k] > step ? 1 : 0;
     }
-    enter_found<one_word>(a, begin, found, 1, word_bits, batch);
-    // ... those that have more against the next vector, and so on.
-    for (std::size_t first = 1 + step; left != 0; first += step) {
+    for (std::size_t first = step; left != 0; first += step) {
         std::size_t still_left = 0;
-        found = 0;
         for (std::size_t n = 0; n < left; ++n) {
             const std::size_t k = batch.left[n];
-            const std::uint64_t bits = near_bits(a, batch, k, first, batch.later[k]);
-            batch.found[found] = bits << 32 | k;
-            found += bits != 0 ? 1 : 0;
+            batch.near[(k << word_bits) + (one_word ? 0 : first / 64)] |= near_bits(k, first) << (first % 64);
             batch.left[still_left] = static_cast<std::uint32_t>(k);
-            still_left += batch.later[k] >= first + step ? 1 : 0;
+            still_left += batch.bucket_size[k] > first + step ? 1 : 0;
         }
         left = still_left;
-        enter_found<one_word>(a, begin, found, first, word_bits, batch);
     }
     std::size_t active = 0;
     for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t self = k - batch.bucket_begin[k];
+        batch.near[(k << word_bits) + (one_word ? 0 : self / 64)] &= ~(std::uint64_t{1} << (self % 64));
         std::uint64_t any = 0;
         for (std::size_t w = 0; w < std::size_t{1} << word_bits; ++w)
             any |= batch.near[(k << word_bits) + w];
@@ -272,16 +262,16 @@ private:
 };
 
 template <class Real>
-HWY_INLINE void load_place(const CellPassArguments<Real>& a, std::size_t i, Real* place) {
+HWY_INLINE void load_point(const CellPassArguments<Real>& a, std::size_t i, Real* x) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-        place[axis] = a.x[axis][i];
-    place[3] = 0;
+        x[axis] = a.x[axis][i];
+    x[3] = 0;
 }
 
 template <class Real>
-HWY_INLINE void store_place(const CellPassArguments<Real>& a, std::size_t i, const Real* place) {
+HWY_INLINE void store_point(const CellPassArguments<Real>& a, std::size_t i, const Real* x) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-        a.x[axis][i] = place[axis];
+        a.x[axis][i] = x[axis];
 }
 
 /// Moves the batch's points that are near others, one after the other, unless they are pinned. Returns how many really
@@ -291,47 +281,52 @@ HWY_INLINE std::size_t apply_pushes(const CellPassArguments<Real>& a, std::size_
                                     int word_bits, Batch<Real>& batch) {
     // Whoever is near an active point is one.
     for (std::size_t n = 0; n < active; ++n)
-        load_place(a, a.order[begin + batch.active[n]], &batch.place[4 * batch.active[n]]);
+        load_point(a, a.order[begin + batch.active[n]], &batch.x[4 * batch.active[n]]);
     std::size_t total = 0;
     for (std::size_t n = 0; n < active; ++n) {
         const std::size_t k = batch.active[n], i = a.order[begin + k];
         if (a.pinned[i])
             continue;
-        const Real* bucket = &batch.place[4 * batch.bucket_begin[k]];
-        PointPush<Real> push(&batch.place[4 * k]);
+        const Real* bucket = &batch.x[4 * std::size_t{batch.bucket_begin[k]}];
+        PointPush<Real> push(&batch.x[4 * k]);
         for (std::size_t w = 0; w < std::size_t{1} << word_bits; ++w)
             for (std::uint64_t left = batch.near[(k << word_bits) + w]; left != 0; left &= left - 1)
                 push.add(bucket + 4 * (64 * w + static_cast<std::size_t>(std::countr_zero(left))), a.apart);
         total += push.move(a.substeps);
-        store_place(a, i, &batch.place[4 * k]);
+        store_point(a, i, &batch.x[4 * k]);
     }
     return total;
 }
 
-/// The rule as it is written, for buckets with very many points.
+/// The rule as it is written, for buckets with very many points and for cells that places do not tell apart.
 template <class Real>
 HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
     std::size_t total = 0;
-    for (std::size_t k = a.begin; k < a.end; ++k) {
-        const std::uint32_t key = key_of(a, k), bucket = key & a.mask;
-        if (a.pinned[a.order[k]])
-            continue;
-        alignas(32) Real x[4], y[4];
-        load_place(a, a.order[k], x);
-        PointPush<Real> push(x);
-        for (std::size_t q = a.bucket_begin[bucket]; q < a.bucket_begin[bucket + 1]; ++q) {
-            float square = 0;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const float v = a.sorted[4 * q + axis] - a.sorted[4 * k + axis];
-                square += v * v;
+    for (std::size_t b = a.begin; b < a.end; ++b) {
+        for (std::size_t k = a.bucket_begin[b]; k < a.bucket_begin[b + 1]; ++k) {
+            const std::size_t i = a.order[k];
+            if (a.pinned[i])
+                continue;
+            alignas(32) Real x[4], y[4];
+            load_point(a, i, x);
+            PointPush<Real> push(x);
+            for (std::size_t q = a.bucket_begin[b]; q < a.bucket_begin[b + 1]; ++q) {
+                const std::size_t j = a.order[q];
+                Real square = 0;
+                bool same_cell = true;
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const Real v = a.x[axis][j] - x[axis];
+                    square += v * v;
+                    same_cell = same_cell && a.cell[axis][i] == a.cell[axis][j];
+                }
+                if (square < a.reach_squared && q != k && same_cell) {
+                    load_point(a, j, y);
+                    push.add(y, a.apart);
+                }
             }
-            if (square < a.reach_squared && q != k && same_cell(a, k, q, key, key_of(a, q))) {
-                load_place(a, a.order[q], y);
-                push.add(y, a.apart);
-            }
+            total += push.move(a.substeps);
+            store_point(a, i, x);
         }
-        total += push.move(a.substeps);
-        store_place(a, a.order[k], x);
     }
     return total;
 }
@@ -339,19 +334,24 @@ HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
 /// A bucket may hold several cells; only points of the same cell push each other, and so each pair counts once.
 template <class Real>
 std::size_t cell_pass(const CellPassArguments<Real>& a) {
-    if (HWY_UNLIKELY(a.largest_bucket > Batch<Real>::most_points))
+    if (HWY_UNLIKELY(!a.exact || a.largest_bucket > Batch<Real>::most_points))
         return crowded_pass(a); // its bits do not fit into a batch
-    // Words of bits for each point: a power of two.
-    const int word_bits = a.largest_bucket <= 64 ? 0 : static_cast<int>(std::bit_width((a.largest_bucket - 1) / 64));
     Batch<Real> batch;
     std::size_t total = 0;
     for (std::size_t begin = a.begin; begin < a.end;) {
-        std::size_t end = HWY_MIN(begin + Batch<Real>::most_points, a.end);
-        if (end < a.end)
-            end = a.bucket_begin[key_of(a, end) & a.mask];
-        const std::size_t active = word_bits == 0 ? find_near<true>(a, begin, end - begin, 0, batch)
-                                                  : find_near<false>(a, begin, end - begin, word_bits, batch);
-        total += apply_pushes(a, begin, active, word_bits, batch);
+        const std::size_t first = a.bucket_begin[begin];
+        std::size_t end = begin, largest = 0;
+        while (end < a.end && a.bucket_begin[end + 1] - first <= Batch<Real>::most_points) {
+            largest = HWY_MAX(largest, std::size_t{a.bucket_begin[end + 1]} - a.bucket_begin[end]);
+            ++end;
+        }
+        // Words of bits for each point: a power of two.
+        const int word_bits = largest <= 64 ? 0 : static_cast<int>(std::bit_width((largest - 1) / 64));
+        const std::size_t count = a.bucket_begin[end] - first;
+        load_batch(a, begin, end, batch);
+        const std::size_t active = word_bits == 0 ? find_near<true>(a.near, count, 0, batch)
+                                                  : find_near<false>(a.near, count, word_bits, batch);
+        total += apply_pushes(a, first, active, word_bits, batch);
         begin = end;
     }
     return total;

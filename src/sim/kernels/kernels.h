@@ -164,22 +164,32 @@ struct CellKeys {
     bool exact;                    ///< no two cells have the same key
 };
 
-/// The course's self-collision among points that lie sorted by buckets of cells. Which may touch is looked up in single
-/// precision, whatever Real is, with a reach that allows for it.
+/// Where a point lies in its cell: x, y and z from the cell's corner in units, 32767 of which are the cell's longest
+/// side, and which of the cells of its bucket that is.
+struct alignas(8) CellPlace {
+    std::uint16_t x, y, z, cell;
+};
+inline constexpr int cell_units = 32767;
+/// Points whose place is not a number have this for a cell.
+inline constexpr std::uint32_t no_cell = 0xffff;
+
+/// The course's self-collision among points that lie sorted by buckets of cells. Which may touch is looked up in whole
+/// units, whatever Real is, with a reach that allows for it.
 template <class Real>
 struct CellPassArguments {
     Axes<Real> x;                      ///< of all points; moved
-    const float* sorted;               ///< fours of all points as they were (Kernels::cell_keys), by bucket
+    const CellPlace* places;           ///< of all points, by bucket
     const std::uint32_t* order;        ///< point of each sorted entry; ascending in each bucket
     ConstAxes<Real> cell;              ///< of each point
-    bool exact;                        ///< no two cells have the same key
-    std::uint32_t mask;                ///< which bits of the key tell the bucket
+    bool exact;                        ///< the places tell the cells of a bucket apart
     const std::uint32_t* bucket_begin; ///< per bucket, and where the last one ends
     std::size_t largest_bucket;        ///< points
-    std::size_t begin, end;            ///< sorted entries of whole buckets
+    std::size_t begin, end;            ///< buckets
     const std::uint8_t* pinned;        ///< per point
     Real apart;                        ///< m, twice the thickness
-    float reach_squared; ///< m²: points that are not nearer at the beginning do not get nearer than `apart`
+    Real reach_squared; ///< m²: points that are not nearer at the beginning do not get nearer than `apart`
+    /// The same in units: points for which the sum of the squares, each over 65536 and rounded down, is not larger.
+    std::int16_t near;
     Real substeps;
 };
 
@@ -202,10 +212,10 @@ struct Kernels {
     /// Keeps, in order, those of `count` pairs whose points are not at least the reach apart and lie in the same cell;
     /// returns how many, and the square of the least distance of such a pair.
     KeptPairs<Real> (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
-    /// Finds the cell of each point, whole numbers in Real, and a key of it, a vector of padding behind each. Packs the
-    /// points into fours of x, y and z, in single precision from a corner of the box around the cells if they are
-    /// exact, and the bits of the key, with padding for a vector of them behind.
-    CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, const Axes<Real>& cell, std::uint32_t* key, float* fours);
+    /// Finds the cell of each point, whole numbers in Real, a key of it, and the place of the point in it, a vector of
+    /// padding behind each. The lowest bits of a key, as many as `bucket_bits`, tell the bucket.
+    CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, int bucket_bits, const Axes<Real>& cell, std::uint32_t* key,
+                                CellPlace* places);
     /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
     std::size_t (*cell_pass)(const CellPassArguments<Real>&);
 };
