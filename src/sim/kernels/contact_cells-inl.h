@@ -213,52 +213,60 @@ HWY_INLINE std::size_t find_near(std::int16_t most, std::size_t count, int word_
     return active;
 }
 
-/// The pushes on one point, and where it goes, as PushSum has it: points are x, y, z, 0. Three coordinates fit into a
-/// vector of four, which is faster where the machine has vectors so long and simple.
+/// What pushes the points of a pass, as PushSum has it: points are x, y, z, 0. Counts the pushes. Three coordinates fit
+/// into a vector of four, which is faster where the machine has vectors so long and simple.
 template <class Real>
-class PointPush {
+class Pusher {
 public:
-    explicit PointPush(Real* x) : x_(x) {}
-    HWY_INLINE void add(const Real* y, Real apart) { sum_.add(x_[0] - y[0], x_[1] - y[1], x_[2] - y[2], apart); }
-    /// Moves the point and returns the number of pushes.
-    HWY_INLINE std::size_t move(Real substeps) {
-        sum_.move(x_[0], x_[1], x_[2], substeps);
-        return sum_.count();
+    Pusher(Real apart, Real substeps) : apart_(apart), substeps_(substeps) {}
+    /// Moves a point. Calls partners(add), which calls add(y) for every partner.
+    template <class Partners>
+    HWY_INLINE void push(Real* x, Partners partners) {
+        PushSum<Real> sum;
+        partners([&](const Real* y) { sum.add(x[0] - y[0], x[1] - y[1], x[2] - y[2], apart_); });
+        sum.move(x[0], x[1], x[2], substeps_);
+        count_ += sum.count();
     }
+    std::size_t count() const { return count_; }
 
 private:
-    Real* x_;
-    PushSum<Real> sum_;
+    Real apart_, substeps_;
+    std::size_t count_ = 0;
 };
 
 template <>
-class PointPush<float> {
+class Pusher<float> {
     using D = hn::FixedTag<float, 4>;
+    using I = hn::FixedTag<std::int32_t, 4>;
 
 public:
-    HWY_INLINE explicit PointPush(float* x)
-        : at_(x), x_(hn::Load(D(), x)), sum_(hn::Zero(D())), count_(hn::Zero(D())) {}
-    HWY_INLINE void add(const float* y, float most) {
+    HWY_INLINE Pusher(float apart, float substeps)
+        : apart_(hn::Set(D(), apart)), substeps_(hn::Set(D(), substeps)), count_(hn::Zero(I())) {}
+    template <class Partners>
+    HWY_INLINE void push(float* at, Partners partners) {
         const D d;
-        const auto v = hn::Sub(x_, hn::Load(d, y)), squares = hn::Mul(v, v);
-        const auto length =
-            hn::Sqrt(hn::Add(hn::Add(hn::Broadcast<0>(squares), hn::Broadcast<1>(squares)), hn::Broadcast<2>(squares)));
-        const auto apart = hn::Set(d, most);
-        const auto touching = hn::And(hn::Lt(length, apart), hn::Gt(length, hn::Zero(d)));
-        const auto push = hn::IfThenElseZero(touching, hn::Div(hn::Sub(apart, length), length));
-        sum_ = hn::Add(sum_, hn::Mul(push, v));
-        count_ = hn::Add(count_, hn::IfThenElseZero(touching, hn::Set(d, 1.0f)));
+        const auto x = hn::Load(d, at), zero = hn::Zero(d);
+        auto sum = zero;
+        auto count = hn::Zero(I());
+        partners([&](const float* y) HWY_ATTR {
+            const auto v = hn::Sub(x, hn::Load(d, y)), squares = hn::Mul(v, v);
+            const auto length = hn::Sqrt(
+                hn::Add(hn::Add(hn::Broadcast<0>(squares), hn::Broadcast<1>(squares)), hn::Broadcast<2>(squares)));
+            const auto touching = hn::And(hn::Lt(length, apart_), hn::Gt(length, zero));
+            const auto push = hn::IfThenElseZero(touching, hn::Div(hn::Sub(apart_, length), length));
+            sum = hn::Add(sum, hn::Mul(push, v));
+            count = hn::Sub(count, hn::BitCast(I(), hn::VecFromMask(d, touching))); // a mask is -1
+        });
+        count_ = hn::Add(count_, count);
+        const auto share = hn::Mul(hn::ConvertTo(d, count), substeps_);
+        const auto pushed = hn::Gt(share, zero);
+        hn::Store(hn::IfThenElse(pushed, hn::Add(x, hn::Div(sum, share)), x), d, at);
     }
-    HWY_INLINE std::size_t move(float substeps) {
-        const D d;
-        const auto share = hn::Mul(count_, hn::Set(d, substeps));
-        hn::Store(hn::IfThenElse(hn::Gt(count_, hn::Zero(d)), hn::Add(x_, hn::Div(sum_, share)), x_), d, at_);
-        return static_cast<std::size_t>(hn::GetLane(count_));
-    }
+    HWY_INLINE std::size_t count() const { return static_cast<std::size_t>(hn::GetLane(count_)); }
 
 private:
-    float* at_;
-    hn::Vec<D> x_, sum_, count_;
+    hn::Vec<D> apart_, substeps_;
+    hn::Vec<I> count_;
 };
 
 template <class Real>
@@ -276,32 +284,36 @@ HWY_INLINE void store_point(const CellPassArguments<Real>& a, std::size_t i, con
 
 /// Moves the batch's points that are near others, one after the other, unless they are pinned. Returns how many really
 /// were near enough.
-template <class Real>
+template <bool one_word, class Real>
 HWY_INLINE std::size_t apply_pushes(const CellPassArguments<Real>& a, std::size_t begin, std::size_t active,
                                     int word_bits, Batch<Real>& batch) {
     // Whoever is near an active point is one.
-    for (std::size_t n = 0; n < active; ++n)
-        load_point(a, a.order[begin + batch.active[n]], &batch.x[4 * batch.active[n]]);
-    std::size_t total = 0;
+    std::size_t free = 0;
     for (std::size_t n = 0; n < active; ++n) {
-        const std::size_t k = batch.active[n], i = a.order[begin + k];
-        if (a.pinned[i])
-            continue;
-        const Real* bucket = &batch.x[4 * std::size_t{batch.bucket_begin[k]}];
-        PointPush<Real> push(&batch.x[4 * k]);
-        for (std::size_t w = 0; w < std::size_t{1} << word_bits; ++w)
-            for (std::uint64_t left = batch.near[(k << word_bits) + w]; left != 0; left &= left - 1)
-                push.add(bucket + 4 * (64 * w + static_cast<std::size_t>(std::countr_zero(left))), a.apart);
-        total += push.move(a.substeps);
-        store_point(a, i, &batch.x[4 * k]);
+        const std::uint32_t k = batch.active[n], i = a.order[begin + k];
+        load_point(a, i, &batch.x[4 * std::size_t{k}]);
+        batch.active[free] = k;
+        free += a.pinned[i] ? 0 : 1;
     }
-    return total;
+    Pusher<Real> pusher(a.apart, a.substeps);
+    for (std::size_t n = 0; n < free; ++n) {
+        const std::size_t k = batch.active[n];
+        const Real* bucket = &batch.x[4 * std::size_t{batch.bucket_begin[k]}];
+        pusher.push(&batch.x[4 * k], [&](auto add) HWY_ATTR {
+            for (std::size_t w = 0; w < (one_word ? 1 : std::size_t{1} << word_bits); ++w)
+                for (std::uint64_t left = batch.near[one_word ? k : (k << word_bits) + w]; left != 0; left &= left - 1)
+                    add(bucket + 4 * (64 * w + static_cast<std::size_t>(std::countr_zero(left))));
+        });
+    }
+    for (std::size_t n = 0; n < free; ++n)
+        store_point(a, a.order[begin + batch.active[n]], &batch.x[4 * std::size_t{batch.active[n]}]);
+    return pusher.count();
 }
 
 /// The rule as it is written, for buckets with very many points and for cells that places do not tell apart.
 template <class Real>
 HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
-    std::size_t total = 0;
+    Pusher<Real> pusher(a.apart, a.substeps);
     for (std::size_t b = a.begin; b < a.end; ++b) {
         for (std::size_t k = a.bucket_begin[b]; k < a.bucket_begin[b + 1]; ++k) {
             const std::size_t i = a.order[k];
@@ -309,26 +321,26 @@ HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
                 continue;
             alignas(32) Real x[4], y[4];
             load_point(a, i, x);
-            PointPush<Real> push(x);
-            for (std::size_t q = a.bucket_begin[b]; q < a.bucket_begin[b + 1]; ++q) {
-                const std::size_t j = a.order[q];
-                Real square = 0;
-                bool same_cell = true;
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    const Real v = a.x[axis][j] - x[axis];
-                    square += v * v;
-                    same_cell = same_cell && a.cell[axis][i] == a.cell[axis][j];
+            pusher.push(x, [&](auto add) HWY_ATTR {
+                for (std::size_t q = a.bucket_begin[b]; q < a.bucket_begin[b + 1]; ++q) {
+                    const std::size_t j = a.order[q];
+                    Real square = 0;
+                    bool same_cell = true;
+                    for (std::size_t axis = 0; axis < 3; ++axis) {
+                        const Real v = a.x[axis][j] - x[axis];
+                        square += v * v;
+                        same_cell = same_cell && a.cell[axis][i] == a.cell[axis][j];
+                    }
+                    if (square < a.reach_squared && q != k && same_cell) {
+                        load_point(a, j, y);
+                        add(y);
+                    }
                 }
-                if (square < a.reach_squared && q != k && same_cell) {
-                    load_point(a, j, y);
-                    push.add(y, a.apart);
-                }
-            }
-            total += push.move(a.substeps);
+            });
             store_point(a, i, x);
         }
     }
-    return total;
+    return pusher.count();
 }
 
 /// A bucket may hold several cells; only points of the same cell push each other, and so each pair counts once.
@@ -349,9 +361,10 @@ std::size_t cell_pass(const CellPassArguments<Real>& a) {
         const int word_bits = largest <= 64 ? 0 : static_cast<int>(std::bit_width((largest - 1) / 64));
         const std::size_t count = a.bucket_begin[end] - first;
         load_batch(a, begin, end, batch);
-        const std::size_t active = word_bits == 0 ? find_near<true>(a.near, count, 0, batch)
-                                                  : find_near<false>(a.near, count, word_bits, batch);
-        total += apply_pushes(a, first, active, word_bits, batch);
+        if (word_bits == 0)
+            total += apply_pushes<true>(a, first, find_near<true>(a.near, count, 0, batch), 0, batch);
+        else
+            total += apply_pushes<false>(a, first, find_near<false>(a.near, count, word_bits, batch), word_bits, batch);
         begin = end;
     }
     return total;
