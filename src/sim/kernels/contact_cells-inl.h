@@ -28,34 +28,43 @@ HWY_INLINE hn::Vec<hn::Rebind<std::int32_t, Tag<Real>>> whole(Lane<Real> cell) {
         return hn::DemoteTo(di, cell);
 }
 
-/// Finds the cells of all points and their bounds. NaN is in no cell and bounds nothing.
+/// The cells that bound those of all points, which are the cells of the points' bounds. NaN is in no cell and bounds
+/// nothing.
 template <class Real>
-HWY_INLINE CellKeys<Real> find_cells(const CellArguments<Real>& a, const Axes<Real>& cell) {
+HWY_INLINE CellKeys<Real> find_bounds(const CellArguments<Real>& a) {
     const Tag<Real> d;
     constexpr Real infinity = std::numeric_limits<Real>::infinity();
-    Lane<Real> low[3], high[3], largest = hn::Zero(d);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = hn::Set(d, infinity);
-        high[axis] = hn::Set(d, -infinity);
-    }
-    for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real)) {
-        const auto inside = lanes_before<Real>(static_cast<std::ptrdiff_t>(a.count - k));
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto x = hn::LoadU(d, a.x[axis] + k), c = cell_of<Real>(x, a.cell[axis]);
-            hn::StoreU(c, d, cell[axis] + k);
-            const auto counts = hn::And(inside, hn::Eq(x, x));
-            low[axis] = hn::Min(low[axis], hn::IfThenElse(counts, c, low[axis]));
-            high[axis] = hn::Max(high[axis], hn::IfThenElse(counts, c, high[axis]));
-            largest = hn::Max(largest, hn::IfThenElseZero(counts, hn::Abs(x)));
-        }
-    }
     CellKeys<Real> keys{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        keys.low[axis] = hn::GetLane(hn::MinOfLanes(d, low[axis]));
-        keys.high[axis] = hn::GetLane(hn::MaxOfLanes(d, high[axis]));
+        auto low = hn::Set(d, infinity), high = hn::Set(d, -infinity);
+        const auto include = [&](LaneMask<Real> counts, Lane<Real> x) HWY_ATTR {
+            low = hn::Min(low, hn::IfThenElse(counts, x, low));
+            high = hn::Max(high, hn::IfThenElse(counts, x, high));
+        };
+        std::size_t k = 0;
+        for (; k + HWY_LANES(Real) <= a.count; k += HWY_LANES(Real)) {
+            const auto x = hn::LoadU(d, a.x[axis] + k);
+            include(hn::Eq(x, x), x);
+        }
+        const auto x = hn::LoadU(d, a.x[axis] + k);
+        include(hn::And(lanes_before<Real>(static_cast<std::ptrdiff_t>(a.count - k)), hn::Eq(x, x)), x);
+        const Real least = hn::GetLane(hn::MinOfLanes(d, low)), largest = hn::GetLane(hn::MaxOfLanes(d, high));
+        keys.low[axis] = hn::GetLane(cell_of<Real>(hn::Set(d, least), a.cell[axis]));
+        keys.high[axis] = hn::GetLane(cell_of<Real>(hn::Set(d, largest), a.cell[axis]));
+        keys.largest = HWY_MAX(keys.largest, HWY_MAX(std::abs(least), std::abs(largest)));
     }
-    keys.largest = hn::GetLane(hn::MaxOfLanes(d, largest));
     return keys;
+}
+
+/// The lower half of numbers from 0 to 65535, as integers, and anything for NaN.
+template <class Real>
+HWY_INLINE hn::Vec<hn::Rebind<std::uint32_t, Tag<Real>>> small_whole(Lane<Real> v) {
+    const hn::Rebind<std::uint32_t, Tag<Real>> du;
+    const auto half = hn::Set(du, 0xffffu);
+    if constexpr (sizeof(Real) == 4) // the last bits of a float that is so much larger count ones
+        return hn::And(hn::BitCast(du, hn::Add(v, hn::Set(Tag<Real>(), Real(1 << 23)))), half);
+    else
+        return hn::And(hn::BitCast(du, whole<Real>(v)), half);
 }
 
 template <class Real>
@@ -64,7 +73,7 @@ CellKeys<Real> cell_keys(const CellArguments<Real>& a, int bucket_bits, const Ax
     const Tag<Real> d;
     const hn::Rebind<std::int32_t, Tag<Real>> di;
     const hn::Rebind<std::uint32_t, Tag<Real>> du;
-    CellKeys<Real> keys = find_cells(a, cell);
+    CellKeys<Real> keys = find_bounds(a);
     // In a box that is not too large a cell's key is its place there, and otherwise some sum. Few enough along each
     // axis that a float tells them apart, few enough in all for an integer, and for a place.
     std::array<double, 3> along;
@@ -77,31 +86,30 @@ CellKeys<Real> cell_keys(const CellArguments<Real>& a, int bucket_bits, const Ax
         factor = {1, static_cast<std::int32_t>(along[0]), static_cast<std::int32_t>(along[0] * along[1])};
     const Real longest = HWY_MAX(HWY_MAX(a.cell[0], a.cell[1]), a.cell[2]);
 
-    const auto zero = hn::Zero(d);
     for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real)) {
         auto sum = hn::Zero(di);
-        auto all = zero;
+        auto all = hn::Zero(d);
         hn::Vec<decltype(du)> place[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto c = hn::LoadU(d, cell[axis] + k);
+            const auto share = hn::Div(hn::LoadU(d, a.x[axis] + k), hn::Set(d, a.cell[axis])), c = hn::Floor(share);
             const auto from = hn::Set(d, keys.exact ? keys.low[axis] : Real(0));
-            const auto column = whole<Real>(hn::Sub(c, from));
-            sum = hn::Add(sum, hn::Mul(column, hn::Set(di, factor[axis])));
-            const auto per_metre = hn::Set(d, Real(cell_units) / longest);
-            const auto side = hn::Set(d, Real(cell_units) / longest * a.cell[axis]);
-            const auto inside = hn::Sub(hn::Mul(hn::LoadU(d, a.x[axis] + k), per_metre), hn::Mul(c, side));
+            sum = hn::Add(sum, hn::Mul(whole<Real>(hn::Sub(c, from)), hn::Set(di, factor[axis])));
+            const auto inside = hn::Mul(hn::Sub(share, c), hn::Set(d, Real(cell_units) * (a.cell[axis] / longest)));
             all = hn::Add(all, inside);
-            const auto unit = whole<Real>(hn::Min(hn::Max(inside, zero), hn::Set(d, Real(cell_units))));
-            place[axis] = hn::And(hn::BitCast(du, unit), hn::Set(du, 0xffffu));
+            place[axis] = small_whole<Real>(inside);
         }
-        const auto bits = hn::BitCast(du, sum);
-        hn::StoreU(bits, du, key + k);
         // Only numbers equal themselves.
-        const auto none = whole<Real>(hn::IfThenElseZero(hn::Ne(all, all), hn::Set(d, Real(no_cell))));
-        const auto which = hn::Or(hn::ShiftRightSame(bits, bucket_bits), hn::BitCast(du, none));
-        hn::StoreInterleaved2(hn::Or(place[0], hn::ShiftLeft<16>(place[1])), hn::Or(place[2], hn::ShiftLeft<16>(which)),
-                              du, reinterpret_cast<std::uint32_t*>(places + k));
+        const auto none = small_whole<Real>(hn::IfThenElseZero(hn::Ne(all, all), hn::Set(d, Real(no_cell))));
+        const auto bits = hn::BitCast(du, sum), which = hn::Or(hn::ShiftRightSame(bits, bucket_bits), none);
+        hn::StoreU(bits, du, key + k);
+        hn::StoreInterleaved2(hn::Or(place[0], hn::ShiftLeft<16>(place[1])),
+                              hn::Or(place[2], hn::ShiftLeft<16>(which)), du,
+                              reinterpret_cast<std::uint32_t*>(places + k));
     }
+    if (!keys.exact)
+        for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real))
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                hn::StoreU(cell_of<Real>(hn::LoadU(d, a.x[axis] + k), a.cell[axis]), d, cell[axis] + k);
     return keys;
 }
 
@@ -325,11 +333,11 @@ HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
                 for (std::size_t q = a.bucket_begin[b]; q < a.bucket_begin[b + 1]; ++q) {
                     const std::size_t j = a.order[q];
                     Real square = 0;
-                    bool same_cell = true;
+                    bool same_cell = !a.exact || a.places[k].cell == a.places[q].cell;
                     for (std::size_t axis = 0; axis < 3; ++axis) {
                         const Real v = a.x[axis][j] - x[axis];
                         square += v * v;
-                        same_cell = same_cell && a.cell[axis][i] == a.cell[axis][j];
+                        same_cell = same_cell && (a.exact || a.cell[axis][i] == a.cell[axis][j]);
                     }
                     if (square < a.reach_squared && q != k && same_cell) {
                         load_point(a, j, y);

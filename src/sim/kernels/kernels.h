@@ -180,7 +180,7 @@ struct CellPassArguments {
     Axes<Real> x;                      ///< of all points; moved
     const CellPlace* places;           ///< of all points, by bucket
     const std::uint32_t* order;        ///< point of each sorted entry; ascending in each bucket
-    ConstAxes<Real> cell;              ///< of each point
+    ConstAxes<Real> cell;              ///< of each point, whole numbers, unless `exact`
     bool exact;                        ///< the places tell the cells of a bucket apart
     const std::uint32_t* bucket_begin; ///< per bucket, and where the last one ends
     std::size_t largest_bucket;        ///< points
@@ -212,8 +212,9 @@ struct Kernels {
     /// Keeps, in order, those of `count` pairs whose points are not at least the reach apart and lie in the same cell;
     /// returns how many, and the square of the least distance of such a pair.
     KeptPairs<Real> (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
-    /// Finds the cell of each point, whole numbers in Real, a key of it, and the place of the point in it, a vector of
-    /// padding behind each. The lowest bits of a key, as many as `bucket_bits`, tell the bucket.
+    /// Finds a key of the cell of each point and the place of the point in it, a vector of padding behind each. The
+    /// lowest bits of a key, as many as `bucket_bits`, tell the bucket. If keys are not exact, also the cells, whole
+    /// numbers in Real.
     CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, int bucket_bits, const Axes<Real>& cell, std::uint32_t* key,
                                 CellPlace* places);
     /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
