@@ -93,7 +93,7 @@ TEST_CASE("The bench times every kernel that this machine has, in every case and
     REQUIRE(table.summary.empty()); // it is about other sizes
 }
 
-TEST_CASE("Runs of the same precision that are timed together do the same steps") {
+TEST_CASE("Runs of the same precision that are timed together do the same steps", "[threads]") {
     BenchConfig config = tiny("falling");
     config.sizes = {24};
     const BenchTable table = run_bench(config);
@@ -110,8 +110,13 @@ TEST_CASE("Runs of the same precision that are timed together do the same steps"
     }
 }
 
-TEST_CASE("A filter leaves the runs it matches, and the textbook's to compare them with") {
-    const BenchTable table = run_bench(tiny("^(springs|falling)/8/single/scalar"));
+TEST_CASE("A filter leaves the runs it matches, and the textbook's to compare them with", "[threads]") {
+    const auto on_one_thread = [](const std::string& filter) {
+        BenchConfig config = tiny(filter);
+        config.threads = {1};
+        return run_bench(config);
+    };
+    const BenchTable table = on_one_thread("^(springs|falling)/8/single/scalar");
     REQUIRE(table.groups.size() == 2);
     for (const BenchGroup& group : table.groups) {
         REQUIRE(group.n == 8);
@@ -121,9 +126,9 @@ TEST_CASE("A filter leaves the runs it matches, and the textbook's to compare th
         REQUIRE(group.rows[1].precision == sim::Precision::single_precision);
         REQUIRE_FALSE(group.rows[1].forces_to_full_step); // without the pinned case
     }
-    REQUIRE(run_bench(tiny("pinned/12/.*textbook")).groups.front().rows.size() == 1);
-    REQUIRE_THROWS_AS(run_bench(tiny("(")), BenchFilterError);
-    REQUIRE_THROWS_AS(run_bench(tiny("velvet")), BenchFilterError);
+    REQUIRE(on_one_thread("pinned/12/.*textbook").groups.front().rows.size() == 1);
+    REQUIRE_THROWS_AS(on_one_thread("("), BenchFilterError);
+    REQUIRE_THROWS_AS(on_one_thread("velvet"), BenchFilterError);
 }
 
 TEST_CASE("Cases keep the mass of a point, shrink the thickness with the distance of points and move the pins along") {

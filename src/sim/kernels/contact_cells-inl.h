@@ -102,9 +102,8 @@ CellKeys<Real> cell_keys(const CellArguments<Real>& a, int bucket_bits, const Ax
         const auto none = small_whole<Real>(hn::IfThenElseZero(hn::Ne(all, all), hn::Set(d, Real(no_cell))));
         const auto bits = hn::BitCast(du, sum), which = hn::Or(hn::ShiftRightSame(bits, bucket_bits), none);
         hn::StoreU(bits, du, key + k);
-        hn::StoreInterleaved2(hn::Or(place[0], hn::ShiftLeft<16>(place[1])),
-                              hn::Or(place[2], hn::ShiftLeft<16>(which)), du,
-                              reinterpret_cast<std::uint32_t*>(places + k));
+        hn::StoreInterleaved2(hn::Or(place[0], hn::ShiftLeft<16>(place[1])), hn::Or(place[2], hn::ShiftLeft<16>(which)),
+                              du, reinterpret_cast<std::uint32_t*>(places + k));
     }
     if (!keys.exact)
         for (std::size_t k = 0; k < a.count; k += HWY_LANES(Real))
@@ -143,8 +142,8 @@ struct Batch {
     alignas(64) std::array<std::array<std::int16_t, most_points + place_lanes>, 4> place;
     alignas(64) std::array<std::uint16_t, most_points + place_lanes> bucket_begin; ///< of each point's bucket
     alignas(64) std::array<std::uint16_t, most_points + place_lanes> bucket_size;  ///< points
-    std::array<std::uint32_t, most_points> left;   ///< points that are not done yet
-    std::array<std::uint32_t, most_points> active; ///< points with a bit, ascending
+    std::array<std::uint32_t, most_points> left;                                   ///< points that are not done yet
+    std::array<std::uint32_t, most_points> active;                                 ///< points with a bit, ascending
     /// x, y, z, 0 of the active ones, where they are by now.
     alignas(32) std::array<Real, 4 * most_points> x;
 };
