@@ -1,5 +1,6 @@
 // The kernels give the bits of the plain loops: every instruction set, one thread or several.
 #include <bit>
+#include <catch2/catch_template_test_macros.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
 #include <catch2/generators/catch_generators_range.hpp>
@@ -176,6 +177,37 @@ TEST_CASE("Thousands of points in one cell, in few or at one place push each oth
     REQUIRE((reach > 0) == (expected > 0));
     for (const sim::InstructionSet set : supported_sets()) {
         Sheet<float> sheet(description, exactly(set, 2));
+        sheet.state = before;
+        INFO(name_of(set));
+        REQUIRE(sim::resolve_self_collision(sheet.model, sheet.state, sheet.work) == expected);
+        REQUIRE(same_bits(sheet.state.position, plain.state.position));
+    }
+}
+
+TEMPLATE_TEST_CASE(
+    "Who may touch is found in long cells and far out, for cloth that is thin and thicker than its cells", "", float,
+    double) {
+    sim::Description description;
+    description.cloth.num_width_points = 30; // cells of 0.1 m by 0.25 m
+    description.cloth.num_height_points = 12;
+    description.cloth.thickness = GENERATE(0.0004, 0.01, 0.05, 0.4);
+    description.stepping.substeps = GENERATE(1, 2, 30);
+    const double far_out = GENERATE(0.0, 300.0);
+    // Of one point: among the others, or so far that places hardly tell cells apart, or that they do not: where 2048 by
+    // 2048 cells make a layer, those of one layer would look like those of the next.
+    const sim::Vec3 stray =
+        GENERATE(sim::Vec3{0, 0, 0}, sim::Vec3{20, 20, 20}, sim::Vec3{204.55, 511.6, 0}, sim::Vec3{1e4, 1e4, 1e4});
+    Sheet<TestType> plain(description, exactly(sim::InstructionSet::scalar, 1));
+    const auto out_there = [&](sim::Vec3 v) { return sim::Vec3{v.x + far_out, v.y + far_out, v.z + far_out}; };
+    sim::SplitMix64 random(7);
+    for (std::size_t i = 0; i < plain.points(); ++i)
+        plain.place(i, out_there(uniform_point(random, -0.2, 0.2)));
+    plain.place(99, out_there(stray));
+    const sim::State<TestType> before = plain.state;
+    const std::size_t expected = sim::resolve_self_collision(plain.model, plain.state, plain.work);
+    REQUIRE((expected > 0) == (description.cloth.thickness > 0.001));
+    for (const sim::InstructionSet set : supported_sets()) {
+        Sheet<TestType> sheet(description, exactly(set, 1));
         sheet.state = before;
         INFO(name_of(set));
         REQUIRE(sim::resolve_self_collision(sheet.model, sheet.state, sheet.work) == expected);
