@@ -74,7 +74,7 @@ TEST_CASE("What a scene does not use costs no memory") {
     standing.cloth.orientation = sim::Orientation::vertical;
     CHECK(bytes_per_point(standing) > springs + 23); // rest lengths 24
     const double contacts = bytes_per_point({});
-    CHECK(contacts < 140);
+    CHECK(contacts < 125);
     sim::Description exact;
     exact.stepping.precision = sim::Precision::double_precision;
     // 2048 x 2048 within 1 GiB: positions for the picture come on top.
