@@ -49,13 +49,13 @@ struct SelfCollisionWork {
     std::vector<std::uint32_t> partners; ///< of the active points, one after the other
 
     // Points sorted by cell: while the list is made, and many contacts. Then there is no list, and `anchor` has the
-    // cells of all points as whole numbers.
+    // cells of all points as whole numbers where their keys do not tell them apart.
     AlignedVector<std::uint32_t> key;        ///< of each point's cell
     std::vector<std::uint32_t> order;        ///< points by cell
     std::vector<std::uint32_t> cell_end;     ///< per cell, or bucket of cells
     std::vector<std::uint32_t> run_end;      ///< of points that follow each other in a cell
     std::vector<std::uint32_t> bucket_begin; ///< per bucket, and one more
-    AlignedVector<std::byte> sorted; ///< the list: four Reals per point; many contacts: two places per point
+    AlignedVector<std::byte> sorted;         ///< the list: four Reals per point; many contacts: two places per point
 
     /// Three coordinates and the index, each a vector of padding behind.
     std::array<Real*, 4> sorted_axes() {
