@@ -203,12 +203,15 @@ TEST_CASE("Whatever is done to a timeline, its states are those of a straight ru
     const sim::IntegratorInfo method = GENERATE(from_range(sim::integrators().begin(), sim::integrators().end()));
     INFO(method.name);
     for (const sim::Precision precision : {sim::Precision::single_precision, sim::Precision::double_precision})
-        for (const int threads : {1, 4})
+        for (const int threads : {1, 4}) {
+            if (sanitized && (threads == 4) != (precision == sim::Precision::single_precision))
+                continue;
             for (std::uint64_t seed = 1; seed <= (sanitized ? 1 : 2); ++seed) {
                 INFO((precision == sim::Precision::single_precision ? "single" : "double")
                      << " precision, " << threads << " threads, seed " << seed);
                 play_with(method, precision, threads, seed * 1000 + static_cast<std::uint64_t>(threads));
             }
+        }
 }
 
 TEST_CASE("A hash does not match by chance: one bit of one coordinate makes another") {

@@ -282,8 +282,10 @@ BenchTable run_bench(const BenchConfig& config) {
         table.groups.push_back(std::move(group));
         descriptions.push_back(&description);
     }
-    report("measuring the machine once more");
-    table.machine = best_of(table.machine, measure_machine(threads));
+    if (!config.quick) {
+        report("measuring the machine once more");
+        table.machine = best_of(table.machine, measure_machine(threads));
+    }
     for (std::size_t i = 0; i < table.groups.size(); ++i) {
         const BenchGroup* pinned = nullptr;
         for (const BenchGroup& other : table.groups)

@@ -30,7 +30,7 @@ struct BenchConfig {
     /// Only runs with a match of this regular expression in their name, CASE/SIZE/PRECISION/KERNEL/THREADS, and the
     /// textbook's run of the same case and size. Where AVX2 is supported, `vec128` has to be named here to be timed.
     std::string filter;
-    bool quick = false; ///< fewer rounds
+    bool quick = false; ///< fewer rounds, and the machine's peaks measured once only
     /// Told what is timed next.
     std::function<void(const std::string&)> progress;
 };
