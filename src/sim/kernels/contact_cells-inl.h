@@ -328,6 +328,8 @@ HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
                 continue;
             alignas(32) Real x[4], y[4];
             load_point(a, i, x);
+            if (!std::isfinite(x[0] + x[1] + x[2]))
+                continue; // as far from everything as can be; after a blow-up that is so of most
             pusher.push(x, [&](auto add) HWY_ATTR {
                 for (std::size_t q = a.bucket_begin[b]; q < a.bucket_begin[b + 1]; ++q) {
                     const std::size_t j = a.order[q];
