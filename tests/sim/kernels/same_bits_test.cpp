@@ -94,6 +94,21 @@ void require_same_stage(std::uint64_t seed, bool extremes, Stage stage) {
         }
 }
 
+/// Self-collision by the plain loops and by every instruction set, from one state. Returns the number of pushes.
+template <class Real>
+std::size_t require_same_pushes(const sim::Description& description, Sheet<Real>& plain, int threads) {
+    const sim::State<Real> before = plain.state;
+    const std::size_t expected = sim::resolve_self_collision(plain.model, plain.state, plain.work);
+    for (const sim::InstructionSet set : supported_sets()) {
+        Sheet<Real> sheet(description, exactly(set, threads));
+        sheet.state = before;
+        INFO(name_of(set));
+        REQUIRE(sim::resolve_self_collision(sheet.model, sheet.state, sheet.work) == expected);
+        REQUIRE(same_bits(sheet.state.position, plain.state.position));
+    }
+    return expected;
+}
+
 constexpr std::uint64_t trials = attempts(120);
 
 template <class Stage>
@@ -172,16 +187,7 @@ TEST_CASE("Thousands of points in one cell, in few or at one place push each oth
         plain.place(i, uniform_point(random, 0.01, 0.01 + reach));
     if (with_nan)
         plain.place(700, {std::numeric_limits<double>::quiet_NaN(), 0.01, 0.01});
-    const sim::State<float> before = plain.state;
-    const std::size_t expected = sim::resolve_self_collision(plain.model, plain.state, plain.work);
-    REQUIRE((reach > 0) == (expected > 0));
-    for (const sim::InstructionSet set : supported_sets()) {
-        Sheet<float> sheet(description, exactly(set, 2));
-        sheet.state = before;
-        INFO(name_of(set));
-        REQUIRE(sim::resolve_self_collision(sheet.model, sheet.state, sheet.work) == expected);
-        REQUIRE(same_bits(sheet.state.position, plain.state.position));
-    }
+    REQUIRE((reach > 0) == (require_same_pushes(description, plain, 2) > 0));
 }
 
 TEMPLATE_TEST_CASE(
@@ -203,16 +209,8 @@ TEMPLATE_TEST_CASE(
     for (std::size_t i = 0; i < plain.points(); ++i)
         plain.place(i, out_there(uniform_point(random, -0.2, 0.2)));
     plain.place(99, out_there(stray));
-    const sim::State<TestType> before = plain.state;
-    const std::size_t expected = sim::resolve_self_collision(plain.model, plain.state, plain.work);
-    REQUIRE((expected > 0) == (description.cloth.thickness > 0.001));
-    for (const sim::InstructionSet set : supported_sets()) {
-        Sheet<TestType> sheet(description, exactly(set, 1));
-        sheet.state = before;
-        INFO(name_of(set));
-        REQUIRE(sim::resolve_self_collision(sheet.model, sheet.state, sheet.work) == expected);
-        REQUIRE(same_bits(sheet.state.position, plain.state.position));
-    }
+    const std::size_t pushes = require_same_pushes(description, plain, 1);
+    REQUIRE((pushes > 0) == (description.cloth.thickness > 0.001));
 }
 
 TEST_CASE("A push that is suddenly farther than any before touches whom it reaches", "[threads]") {
