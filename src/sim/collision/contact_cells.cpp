@@ -20,11 +20,14 @@ int bucket_bits(std::size_t points) {
     return std::countr_zero(std::bit_ceil(std::max<std::size_t>(points / points_per_bucket, 1)));
 }
 
-/// Counting sort of all points by bucket: `order`, and their places. Points of a bucket stay ascending. Sets where each
-/// bucket begins, and returns how many points the largest has. Neighbours along a row mostly share a cell: such runs
-/// are counted and placed as one.
+struct Buckets {
+    std::size_t count, largest; ///< buckets of several points; points of the largest
+};
+
+/// Counting sort of all points by bucket: `order`, and their places. Points of a bucket stay ascending. Lists the
+/// buckets that have several. Neighbours along a row mostly share a cell: such runs are counted and placed as one.
 template <class Real>
-std::size_t sort_by_bucket(std::size_t count, SelfCollisionWork<Real>& work, const CellPlace* places, CellPlace* sorted,
+Buckets sort_by_bucket(std::size_t count, SelfCollisionWork<Real>& work, const CellPlace* places, CellPlace* sorted,
                            std::uint32_t mask) {
     const std::size_t buckets = std::size_t{mask} + 1;
     const std::uint32_t* key = work.key.data();
@@ -40,13 +43,14 @@ std::size_t sort_by_bucket(std::size_t count, SelfCollisionWork<Real>& work, con
     for (std::uint32_t run = 0, first = 0; run < runs; first = run_end[run++])
         next[key[first] & mask] += run_end[run] - first;
     std::uint32_t begin = 0, largest = 0;
+    std::size_t listed = 0;
     for (std::size_t b = 0; b < buckets; ++b) {
         const std::uint32_t size = std::exchange(next[b], begin);
-        work.bucket_begin[b] = begin;
+        work.buckets[listed] = {begin, begin + size};
+        listed += size > 1 ? 1 : 0;
         begin += size;
         largest = std::max(largest, size);
     }
-    work.bucket_begin[buckets] = begin;
     for (std::uint32_t run = 0, i = 0; run < runs; ++run) {
         std::size_t k = std::exchange(next[key[i] & mask], next[key[i] & mask] + run_end[run] - i);
         do {
@@ -55,7 +59,7 @@ std::size_t sort_by_bucket(std::size_t count, SelfCollisionWork<Real>& work, con
             ++k;
         } while (++i < run_end[run]);
     }
-    return largest;
+    return {listed, largest};
 }
 
 } // namespace
@@ -63,7 +67,7 @@ std::size_t sort_by_bucket(std::size_t count, SelfCollisionWork<Real>& work, con
 template <class Real>
 void prepare_cells(std::size_t points, SelfCollisionWork<Real>& work) {
     work.run_end.resize(points);
-    work.bucket_begin.resize((std::size_t{1} << bucket_bits(points)) + 1);
+    work.buckets.resize((std::size_t{1} << bucket_bits(points)) + 1);
     work.sorted.resize(std::max(4 * sizeof(Real), 2 * sizeof(CellPlace)) * (points + most_lanes));
 }
 
@@ -78,7 +82,7 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     const CellKeys<Real> keys = work.kernels->cell_keys({std::as_const(position).axes(), count, width}, bits,
                                                         s.anchor.axes(), s.key.data(), places);
     const std::uint32_t mask = (std::uint32_t{1} << bits) - 1;
-    const std::size_t largest_bucket = sort_by_bucket(count, s, places, sorted, mask);
+    const Buckets buckets = sort_by_bucket(count, s, places, sorted, mask);
 
     // Of points that are no longer finite, all that are not very far apart are looked at.
     constexpr double most = 1e19;
@@ -91,10 +95,9 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
                                       s.order.data(),
                                       std::as_const(s.anchor).axes(),
                                       keys.exact,
-                                      s.bucket_begin.data(),
-                                      largest_bucket,
-                                      0,
-                                      mask + std::size_t{1},
+                                      s.buckets.data(),
+                                      s.buckets.data() + buckets.count,
+                                      buckets.largest,
                                       model.pinned.data(),
                                       Real(2) * model.thickness,
                                       static_cast<Real>(reach * reach * (1 + 1e-6)),
@@ -104,13 +107,14 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     if (threads == 1)
         return work.kernels->cell_pass(all);
     const auto pass = [&](int index) {
-        const auto cut = [&](int i) -> std::size_t {
+        const auto cut = [&](int i) {
             const std::size_t at = count * static_cast<std::size_t>(i) / static_cast<std::size_t>(threads);
-            return at == count ? all.end : s.key[s.order[at]] & mask;
+            return std::partition_point(all.buckets_begin, all.buckets_end,
+                                        [&](const PointSpan& bucket) { return bucket.end <= at; });
         };
         CellPassArguments<Real> part = all;
-        part.begin = cut(index);
-        part.end = cut(index + 1);
+        part.buckets_begin = cut(index);
+        part.buckets_end = cut(index + 1);
         work.counts[static_cast<std::size_t>(index)] = work.kernels->cell_pass(part);
     };
     work.pool->run(threads, pass);

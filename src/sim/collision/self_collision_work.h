@@ -54,7 +54,7 @@ struct SelfCollisionWork {
     std::vector<std::uint32_t> order;        ///< points by cell
     std::vector<std::uint32_t> cell_end;     ///< per cell, or bucket of cells
     std::vector<std::uint32_t> run_end;      ///< of points that follow each other in a cell
-    std::vector<std::uint32_t> bucket_begin; ///< per bucket, and one more
+    std::vector<PointSpan> buckets;          ///< of several points, in `order`
     AlignedVector<std::byte> sorted;         ///< the list: four Reals per point; many contacts: two places per point
 
     /// Three coordinates and the index, each a vector of padding behind.

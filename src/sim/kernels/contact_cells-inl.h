@@ -112,10 +112,10 @@ CellKeys<Real> cell_keys(const CellArguments<Real>& a, int bucket_bits, const Ax
     return keys;
 }
 
-/// Vectors of places.
-using PlaceTag = hn::ScalableTag<std::int16_t>;
+/// Vectors of places. Of no more than 16, which most buckets fill least: a vector of 32 takes as long as two of them.
+using PlaceTag = hn::CappedTag<std::int16_t, 16>;
 using PlaceLane = hn::Vec<PlaceTag>;
-constexpr std::size_t place_lanes = HWY_LANES(std::int16_t);
+constexpr std::size_t place_lanes = HWY_MIN(HWY_LANES(std::int16_t), 16);
 
 /// One bit per lane of a mask.
 HWY_INLINE std::uint64_t place_bits(hn::Mask<PlaceTag> mask) {
@@ -136,86 +136,91 @@ HWY_INLINE std::uint64_t place_bits(hn::Mask<PlaceTag> mask) {
 template <class Real>
 struct Batch {
     static constexpr std::size_t most_points = 512, most_words = 4096;
-    /// Of each point the others of its bucket that are near it: bits, counted from the bucket's first point.
+    /// Of each point those of its bucket that are near it, itself, too: bits, counted from the bucket's first point.
     std::array<std::uint64_t, most_words> near;
     /// Of CellPlace, a vector of padding behind each.
     alignas(64) std::array<std::array<std::int16_t, most_points + place_lanes>, 4> place;
-    alignas(64) std::array<std::uint16_t, most_points + place_lanes> bucket_begin; ///< of each point's bucket
-    alignas(64) std::array<std::uint16_t, most_points + place_lanes> bucket_size;  ///< points
-    std::array<std::uint32_t, most_points> left;                                   ///< points that are not done yet
-    std::array<std::uint32_t, most_points> active;                                 ///< points with a bit, ascending
+    /// A point that is near others, and its bucket's first point.
+    struct Active {
+        std::uint16_t point, bucket;
+    };
+    std::array<Active, most_points + 1> active; ///< ascending
     /// x, y, z, 0 of the active ones, where they are by now.
     alignas(32) std::array<Real, 4 * most_points> x;
 };
 
-/// Fills in where the points of the buckets [begin, end) are.
+/// Fills in the places of `count` points from `first` on.
 template <class Real>
-HWY_INLINE void load_batch(const CellPassArguments<Real>& a, std::size_t begin, std::size_t end, Batch<Real>& batch) {
+HWY_INLINE void load_batch(const CellPlace* first, std::size_t count, Batch<Real>& batch) {
     const PlaceTag d;
-    const hn::RebindToUnsigned<PlaceTag> du;
-    const std::size_t first = a.bucket_begin[begin], count = a.bucket_begin[end] - first;
-    const auto* places = reinterpret_cast<const std::int16_t*>(a.places + first);
+    const auto* places = reinterpret_cast<const std::int16_t*>(first);
     for (std::size_t k = 0; k < count; k += place_lanes) {
         PlaceLane v[4];
         hn::LoadInterleaved4(d, places + 4 * k, v[0], v[1], v[2], v[3]);
         for (std::size_t i = 0; i < 4; ++i)
             hn::Store(v[i], d, &batch.place[i][k]);
     }
-    for (std::size_t b = begin; b < end; ++b) { // the next bucket's points overwrite what is too much
-        const std::size_t from = a.bucket_begin[b] - first, to = a.bucket_begin[b + 1] - first;
-        for (std::size_t k = from; k < to; k += place_lanes) {
-            hn::StoreU(hn::Set(du, static_cast<std::uint16_t>(from)), du, &batch.bucket_begin[k]);
-            hn::StoreU(hn::Set(du, static_cast<std::uint16_t>(to - from)), du, &batch.bucket_size[k]);
-        }
-    }
 }
 
-/// Finds which points of each bucket are near each other before any is moved: `count` points of the batch. Returns how
-/// many points have others near them. Without a branch for each point, of which few are near others.
-template <bool one_word, class Real>
-HWY_INLINE std::size_t find_near(std::int16_t most, std::size_t count, int word_bits, Batch<Real>& batch) {
-    constexpr std::size_t step = place_lanes;
-    word_bits = one_word ? 0 : word_bits;
-    const PlaceTag d;
-    // Which of the vector of points from `first` on of the bucket are near point k: itself, too.
-    const auto near_bits = [&](std::size_t k, std::size_t first) HWY_ATTR {
-        const std::size_t other = batch.bucket_begin[k] + first;
-        const auto square = [&](std::size_t axis) HWY_ATTR {
-            const auto v = hn::Sub(hn::LoadU(d, &batch.place[axis][other]), hn::Set(d, batch.place[axis][k]));
-            return hn::MulHigh(v, v);
-        };
-        const auto same = hn::Eq(hn::LoadU(d, &batch.place[3][other]), hn::Set(d, batch.place[3][k]));
-        const auto sum = hn::SaturatedAdd(hn::SaturatedAdd(square(0), square(1)), square(2));
-        const std::size_t others = HWY_MIN(batch.bucket_size[k] - first, step);
-        return place_bits(hn::AndNot(hn::Gt(sum, hn::Set(d, most)), same)) & (~std::uint64_t{0} >> (64 - others));
+/// A vector of places of points.
+struct PlaceVector {
+    PlaceLane x, y, z, cell;
+    HWY_INLINE PlaceVector(const PlaceLane& x_, const PlaceLane& y_, const PlaceLane& z_, const PlaceLane& cell_)
+        : x(x_), y(y_), z(z_), cell(cell_) {}
+    template <class Real>
+    HWY_INLINE PlaceVector(const Batch<Real>& batch, std::size_t k)
+        : PlaceVector(hn::LoadU(PlaceTag(), &batch.place[0][k]), hn::LoadU(PlaceTag(), &batch.place[1][k]),
+                      hn::LoadU(PlaceTag(), &batch.place[2][k]), hn::LoadU(PlaceTag(), &batch.place[3][k])) {}
+    /// All lanes are point k.
+    template <class Real>
+    static HWY_INLINE PlaceVector all(const Batch<Real>& batch, std::size_t k) {
+        const PlaceTag d;
+        return {hn::Set(d, batch.place[0][k]), hn::Set(d, batch.place[1][k]), hn::Set(d, batch.place[2][k]),
+                hn::Set(d, batch.place[3][k])};
+    }
+};
+
+/// Which of a vector of points are near another, a bit each.
+HWY_INLINE std::uint64_t near_bits(const PlaceVector& a, const PlaceVector& b, PlaceLane most) {
+    const auto square = [](PlaceLane p, PlaceLane q) HWY_ATTR {
+        const auto v = hn::Sub(p, q);
+        return hn::MulHigh(v, v);
     };
-    if (!one_word)
-        std::fill_n(batch.near.begin(), count << word_bits, std::uint64_t{0});
-    std::size_t left = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        batch.near[k << word_bits] = near_bits(k, 0);
-        batch.left[left] = static_cast<std::uint32_t>(k);
-        left += batch.bucket_size[k] > step ? 1 : 0;
-    }
-    for (std::size_t first = step; left != 0; first += step) {
-        std::size_t still_left = 0;
-        for (std::size_t n = 0; n < left; ++n) {
-            const std::size_t k = batch.left[n];
-            batch.near[(k << word_bits) + (one_word ? 0 : first / 64)] |= near_bits(k, first) << (first % 64);
-            batch.left[still_left] = static_cast<std::uint32_t>(k);
-            still_left += batch.bucket_size[k] > first + step ? 1 : 0;
+    const auto sum = hn::SaturatedAdd(hn::SaturatedAdd(square(a.x, b.x), square(a.y, b.y)), square(a.z, b.z));
+    return place_bits(hn::AndNot(hn::Gt(sum, most), hn::Eq(a.cell, b.cell)));
+}
+
+/// Finds which points of a bucket are near each other before any is moved, the bucket being `size` points from `from`
+/// on. Adds to the active ones and returns how many there are. The bucket fits into so many vectors; 0: it may not.
+/// Without a branch for each point, of which few are near others.
+template <std::size_t vectors, class Real>
+HWY_INLINE std::size_t find_near(std::int16_t most_units, std::size_t from, std::size_t size, int word_bits,
+                                 std::size_t active, Batch<Real>& batch) {
+    const auto most = hn::Set(PlaceTag(), most_units);
+    const PlaceVector low(batch, from), high(batch, from + (vectors == 2 ? place_lanes : 0));
+    for (std::size_t k = from; k < from + size; ++k) {
+        const auto own = PlaceVector::all(batch, k);
+        std::uint64_t* words = &batch.near[k << word_bits];
+        std::uint64_t others = 0;
+        if constexpr (vectors != 0) {
+            words[0] = near_bits(low, own, most);
+            if constexpr (vectors == 2)
+                words[0] |= near_bits(high, own, most) << place_lanes;
+            words[0] &= ~std::uint64_t{0} >> (64 - size);
+            others = words[0] & (words[0] - 1);
+        } else {
+            const std::size_t self = k - from;
+            for (std::size_t first = 0; first < size; first += 64) {
+                std::uint64_t word = 0;
+                const std::size_t left = HWY_MIN(size - first, std::size_t{64});
+                for (std::size_t l = 0; l < left; l += place_lanes)
+                    word |= near_bits(PlaceVector(batch, from + first + l), own, most) << l;
+                words[first / 64] = word & (~std::uint64_t{0} >> (64 - left));
+                others |= words[first / 64] & ~(first == self / 64 * 64 ? std::uint64_t{1} << (self % 64) : 0);
+            }
         }
-        left = still_left;
-    }
-    std::size_t active = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t self = k - batch.bucket_begin[k];
-        batch.near[(k << word_bits) + (one_word ? 0 : self / 64)] &= ~(std::uint64_t{1} << (self % 64));
-        std::uint64_t any = 0;
-        for (std::size_t w = 0; w < std::size_t{1} << word_bits; ++w)
-            any |= batch.near[(k << word_bits) + w];
-        batch.active[active] = static_cast<std::uint32_t>(k);
-        active += any != 0 ? 1 : 0;
+        batch.active[active] = {static_cast<std::uint16_t>(k), static_cast<std::uint16_t>(from)};
+        active += others != 0 ? 1 : 0;
     }
     return active;
 }
@@ -297,23 +302,33 @@ HWY_INLINE std::size_t apply_pushes(const CellPassArguments<Real>& a, std::size_
     // Whoever is near an active point is one.
     std::size_t free = 0;
     for (std::size_t n = 0; n < active; ++n) {
-        const std::uint32_t k = batch.active[n], i = a.order[begin + k];
-        load_point(a, i, &batch.x[4 * std::size_t{k}]);
-        batch.active[free] = k;
+        const auto point = batch.active[n];
+        const std::uint32_t i = a.order[begin + point.point];
+        load_point(a, i, &batch.x[4 * std::size_t{point.point}]);
+        batch.active[free] = point;
         free += a.pinned[i] ? 0 : 1;
     }
     Pusher<Real> pusher(a.apart, a.substeps);
     for (std::size_t n = 0; n < free; ++n) {
-        const std::size_t k = batch.active[n];
-        const Real* bucket = &batch.x[4 * std::size_t{batch.bucket_begin[k]}];
+        const std::size_t k = batch.active[n].point, first = batch.active[n].bucket;
+        const Real* bucket = &batch.x[4 * first];
+        const std::uint64_t* words = &batch.near[k << (one_word ? 0 : word_bits)];
         pusher.push(&batch.x[4 * k], [&](auto add) HWY_ATTR {
-            for (std::size_t w = 0; w < (one_word ? 1 : std::size_t{1} << word_bits); ++w)
-                for (std::uint64_t left = batch.near[one_word ? k : (k << word_bits) + w]; left != 0; left &= left - 1)
-                    add(bucket + 4 * (64 * w + static_cast<std::size_t>(std::countr_zero(left))));
+            if (one_word) {
+                for (std::uint64_t left = words[0] & ~(std::uint64_t{1} << (k - first)); left != 0; left &= left - 1)
+                    add(bucket + 4 * static_cast<std::size_t>(std::countr_zero(left)));
+            } else {
+                for (std::size_t w = 0; w < std::size_t{1} << word_bits; ++w)
+                    for (std::uint64_t left = words[w]; left != 0; left &= left - 1)
+                        if (const std::size_t q = first + 64 * w + static_cast<std::size_t>(std::countr_zero(left)); q != k)
+                            add(&batch.x[4 * q]);
+            }
         });
     }
-    for (std::size_t n = 0; n < free; ++n)
-        store_point(a, a.order[begin + batch.active[n]], &batch.x[4 * std::size_t{batch.active[n]}]);
+    for (std::size_t n = 0; n < free; ++n) {
+        const std::size_t k = batch.active[n].point;
+        store_point(a, a.order[begin + k], &batch.x[4 * k]);
+    }
     return pusher.count();
 }
 
@@ -321,8 +336,8 @@ HWY_INLINE std::size_t apply_pushes(const CellPassArguments<Real>& a, std::size_
 template <class Real>
 HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
     Pusher<Real> pusher(a.apart, a.substeps);
-    for (std::size_t b = a.begin; b < a.end; ++b) {
-        for (std::size_t k = a.bucket_begin[b]; k < a.bucket_begin[b + 1]; ++k) {
+    for (const PointSpan* bucket = a.buckets_begin; bucket != a.buckets_end; ++bucket) {
+        for (std::size_t k = bucket->begin; k < bucket->end; ++k) {
             const std::size_t i = a.order[k];
             if (a.pinned[i])
                 continue;
@@ -331,7 +346,7 @@ HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
             if (!std::isfinite(x[0] + x[1] + x[2]))
                 continue; // as far from everything as can be; after a blow-up that is so of most
             pusher.push(x, [&](auto add) HWY_ATTR {
-                for (std::size_t q = a.bucket_begin[b]; q < a.bucket_begin[b + 1]; ++q) {
+                for (std::size_t q = bucket->begin; q < bucket->end; ++q) {
                     const std::size_t j = a.order[q];
                     Real square = 0;
                     bool same_cell = !a.exact || a.places[k].cell == a.places[q].cell;
@@ -359,21 +374,31 @@ std::size_t cell_pass(const CellPassArguments<Real>& a) {
         return crowded_pass(a); // its bits do not fit into a batch
     Batch<Real> batch;
     std::size_t total = 0;
-    for (std::size_t begin = a.begin; begin < a.end;) {
-        const std::size_t first = a.bucket_begin[begin];
-        std::size_t end = begin, largest = 0;
-        while (end < a.end && a.bucket_begin[end + 1] - first <= Batch<Real>::most_points) {
-            largest = HWY_MAX(largest, std::size_t{a.bucket_begin[end + 1]} - a.bucket_begin[end]);
-            ++end;
+    for (const PointSpan* begin = a.buckets_begin; begin != a.buckets_end;) {
+        const std::size_t first = begin->begin;
+        const PointSpan* end = begin;
+        std::size_t largest = 0, last = first;
+        for (; end != a.buckets_end && end->end - first <= Batch<Real>::most_points; ++end) {
+            largest = HWY_MAX(largest, std::size_t{end->end} - end->begin);
+            last = end->end;
         }
+        load_batch(a.places + first, last - first, batch);
         // Words of bits for each point: a power of two.
         const int word_bits = largest <= 64 ? 0 : static_cast<int>(std::bit_width((largest - 1) / 64));
-        const std::size_t count = a.bucket_begin[end] - first;
-        load_batch(a, begin, end, batch);
-        if (word_bits == 0)
-            total += apply_pushes<true>(a, first, find_near<true>(a.near, count, 0, batch), 0, batch);
-        else
-            total += apply_pushes<false>(a, first, find_near<false>(a.near, count, word_bits, batch), word_bits, batch);
+        if (word_bits != 0)
+            std::fill_n(batch.near.begin(), (last - first) << word_bits, std::uint64_t{0});
+        std::size_t active = 0;
+        for (const PointSpan* bucket = begin; bucket != end; ++bucket) {
+            const std::size_t from = bucket->begin - first, size = std::size_t{bucket->end} - bucket->begin;
+            if (size <= place_lanes)
+                active = find_near<1>(a.near, from, size, word_bits, active, batch);
+            else if (size <= 2 * place_lanes)
+                active = find_near<2>(a.near, from, size, word_bits, active, batch);
+            else
+                active = find_near<0>(a.near, from, size, word_bits, active, batch);
+        }
+        total += word_bits == 0 ? apply_pushes<true>(a, first, active, 0, batch)
+                                : apply_pushes<false>(a, first, active, word_bits, batch);
         begin = end;
     }
     return total;

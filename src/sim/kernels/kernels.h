@@ -173,6 +173,11 @@ inline constexpr int cell_units = 32767;
 /// Points whose place is not a number have this for a cell.
 inline constexpr std::uint32_t no_cell = 0xffff;
 
+/// Sorted points from one to before another.
+struct PointSpan {
+    std::uint32_t begin, end;
+};
+
 /// The course's self-collision among points that lie sorted by buckets of cells. Which may touch is looked up in whole
 /// units, whatever Real is, with a reach that allows for it.
 template <class Real>
@@ -182,9 +187,8 @@ struct CellPassArguments {
     const std::uint32_t* order;        ///< point of each sorted entry; ascending in each bucket
     ConstAxes<Real> cell;              ///< of each point, whole numbers, unless `exact`
     bool exact;                        ///< the places tell the cells of a bucket apart
-    const std::uint32_t* bucket_begin; ///< per bucket, and where the last one ends
-    std::size_t largest_bucket;        ///< points
-    std::size_t begin, end;            ///< buckets
+    const PointSpan *buckets_begin, *buckets_end; ///< ascending, those of one point left out
+    std::size_t largest_bucket;                   ///< points
     const std::uint8_t* pinned;        ///< per point
     Real apart;                        ///< m, twice the thickness
     Real reach_squared; ///< m²: points that are not nearer at the beginning do not get nearer than `apart`
