@@ -265,8 +265,8 @@ public:
             const auto length = hn::Sqrt(
                 hn::Add(hn::Add(hn::Broadcast<0>(squares), hn::Broadcast<1>(squares)), hn::Broadcast<2>(squares)));
             const auto touching = hn::And(hn::Lt(length, apart_), hn::Gt(length, zero));
-            const auto push = hn::IfThenElseZero(touching, hn::Div(hn::Sub(apart_, length), length));
-            sum = hn::Add(sum, hn::Mul(push, v));
+            const auto push = hn::Div(hn::Sub(apart_, length), length);
+            sum = hn::Add(sum, hn::IfThenElseZero(touching, hn::Mul(push, v)));
             count = hn::Sub(count, hn::BitCast(I(), hn::VecFromMask(d, touching))); // a mask is -1
         });
         count_ = hn::Add(count_, count);
