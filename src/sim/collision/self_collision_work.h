@@ -53,9 +53,9 @@ struct SelfCollisionWork {
     AlignedVector<std::uint32_t> key;        ///< of each point's cell
     std::vector<std::uint32_t> order;        ///< points by cell
     std::vector<std::uint32_t> cell_end;     ///< per cell, or bucket of cells
-    std::vector<std::uint32_t> run_end;      ///< of points that follow each other in a cell
+    AlignedVector<std::uint32_t> run_end;    ///< of points that follow each other in a cell
     std::vector<PointSpan> buckets;          ///< of several points, in `order`
-    AlignedVector<std::byte> sorted;         ///< the list: four Reals per point; many contacts: two places per point
+    AlignedVector<std::byte> sorted;         ///< the list: four Reals per point; many contacts: a place per point
 
     /// Three coordinates and the index, each a vector of padding behind.
     std::array<Real*, 4> sorted_axes() {
@@ -63,11 +63,8 @@ struct SelfCollisionWork {
         const std::size_t room = sorted.size() / (4 * sizeof(Real));
         return {first, first + room, first + 2 * room, first + 3 * room};
     }
-    /// Places of all points (Kernels::cell_keys), as they are and sorted.
-    std::array<CellPlace*, 2> places() {
-        auto* first = reinterpret_cast<CellPlace*>(sorted.data());
-        return {first, first + sorted.size() / (2 * sizeof(CellPlace))};
-    }
+    /// Places of all points (Kernels::cell_keys).
+    CellPlace* places() { return reinterpret_cast<CellPlace*>(sorted.data()); }
 };
 
 } // namespace clothlab::sim

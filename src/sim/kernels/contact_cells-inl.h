@@ -149,14 +149,16 @@ struct Batch {
     alignas(32) std::array<Real, 4 * most_points> x;
 };
 
-/// Fills in the places of `count` points from `first` on.
+/// Fills in the places of `count` points, the next in order.
 template <class Real>
-HWY_INLINE void load_batch(const CellPlace* first, std::size_t count, Batch<Real>& batch) {
+HWY_INLINE void load_batch(const CellPlace* places, const std::uint32_t* order, std::size_t count, Batch<Real>& batch) {
     const PlaceTag d;
-    const auto* places = reinterpret_cast<const std::int16_t*>(first);
+    HWY_ALIGN std::array<CellPlace, Batch<Real>::most_points + place_lanes> next;
+    for (std::size_t k = 0; k < count; ++k)
+        next[k] = places[order[k]];
     for (std::size_t k = 0; k < count; k += place_lanes) {
         PlaceLane v[4];
-        hn::LoadInterleaved4(d, places + 4 * k, v[0], v[1], v[2], v[3]);
+        hn::LoadInterleaved4(d, reinterpret_cast<const std::int16_t*>(&next[k]), v[0], v[1], v[2], v[3]);
         for (std::size_t i = 0; i < 4; ++i)
             hn::Store(v[i], d, &batch.place[i][k]);
     }
@@ -349,7 +351,7 @@ HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
                 for (std::size_t q = bucket->begin; q < bucket->end; ++q) {
                     const std::size_t j = a.order[q];
                     Real square = 0;
-                    bool same_cell = !a.exact || a.places[k].cell == a.places[q].cell;
+                    bool same_cell = !a.exact || a.places[i].cell == a.places[j].cell;
                     for (std::size_t axis = 0; axis < 3; ++axis) {
                         const Real v = a.x[axis][j] - x[axis];
                         square += v * v;
@@ -382,7 +384,7 @@ std::size_t cell_pass(const CellPassArguments<Real>& a) {
             largest = HWY_MAX(largest, std::size_t{end->end} - end->begin);
             last = end->end;
         }
-        load_batch(a.places + first, last - first, batch);
+        load_batch(a.places, a.order + first, last - first, batch);
         // Words of bits for each point: a power of two.
         const int word_bits = largest <= 64 ? 0 : static_cast<int>(std::bit_width((largest - 1) / 64));
         if (word_bits != 0)

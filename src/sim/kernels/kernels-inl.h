@@ -18,6 +18,7 @@
 #include "sim/kernels/kernels.h"
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+#include "sim/kernels/bucket_sort-inl.h"
 #include "sim/kernels/contact_cells-inl.h"
 #include "sim/kernels/contacts-inl.h"
 #include "sim/kernels/limit_bands-inl.h"
@@ -55,6 +56,7 @@ const Kernels<Real>* table() {
                                            far_pairs<Real>,
                                            keep_pairs<Real>,
                                            cell_keys<Real>,
+                                           sort_by_bucket,
                                            cell_pass<Real>};
     return &kernels;
 }

@@ -178,13 +178,27 @@ struct PointSpan {
     std::uint32_t begin, end;
 };
 
+/// Points to be sorted by the lowest bits of their keys.
+struct BucketSortArguments {
+    const std::uint32_t* key; ///< of each point, a vector of padding behind
+    std::size_t count;        ///< points, at least one
+    std::uint32_t mask;       ///< of the bits
+    std::uint32_t* run_end;   ///< memory: one per point and a vector of padding
+    std::uint32_t* next;      ///< memory: one per bucket
+    std::uint32_t* order;     ///< out: points by bucket, ascending in each
+    PointSpan* buckets;       ///< out: those of several points, ascending; room for one more than there are buckets
+};
+struct BucketList {
+    std::size_t count, largest; ///< buckets of several points; points of the largest bucket
+};
+
 /// The course's self-collision among points that lie sorted by buckets of cells. Which may touch is looked up in whole
 /// units, whatever Real is, with a reach that allows for it.
 template <class Real>
 struct CellPassArguments {
     Axes<Real> x;                      ///< of all points; moved
-    const CellPlace* places;           ///< of all points, by bucket
-    const std::uint32_t* order;        ///< point of each sorted entry; ascending in each bucket
+    const CellPlace* places;           ///< of all points
+    const std::uint32_t* order;        ///< points by bucket; ascending in each
     ConstAxes<Real> cell;              ///< of each point, whole numbers, unless `exact`
     bool exact;                        ///< the places tell the cells of a bucket apart
     const PointSpan *buckets_begin, *buckets_end; ///< ascending, those of one point left out
@@ -221,6 +235,7 @@ struct Kernels {
     /// numbers in Real.
     CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, int bucket_bits, const Axes<Real>& cell, std::uint32_t* key,
                                 CellPlace* places);
+    BucketList (*sort_by_bucket)(const BucketSortArguments&);
     /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
     std::size_t (*cell_pass)(const CellPassArguments<Real>&);
 };
