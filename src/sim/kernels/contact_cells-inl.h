@@ -322,7 +322,8 @@ HWY_INLINE std::size_t apply_pushes(const CellPassArguments<Real>& a, std::size_
             } else {
                 for (std::size_t w = 0; w < std::size_t{1} << word_bits; ++w)
                     for (std::uint64_t left = words[w]; left != 0; left &= left - 1)
-                        if (const std::size_t q = first + 64 * w + static_cast<std::size_t>(std::countr_zero(left)); q != k)
+                        if (const std::size_t q = first + 64 * w + static_cast<std::size_t>(std::countr_zero(left));
+                            q != k)
                             add(&batch.x[4 * q]);
             }
         });

@@ -196,15 +196,15 @@ struct BucketList {
 /// units, whatever Real is, with a reach that allows for it.
 template <class Real>
 struct CellPassArguments {
-    Axes<Real> x;                      ///< of all points; moved
-    const CellPlace* places;           ///< of all points
-    const std::uint32_t* order;        ///< points by bucket; ascending in each
-    ConstAxes<Real> cell;              ///< of each point, whole numbers, unless `exact`
-    bool exact;                        ///< the places tell the cells of a bucket apart
+    Axes<Real> x;                                 ///< of all points; moved
+    const CellPlace* places;                      ///< of all points
+    const std::uint32_t* order;                   ///< points by bucket; ascending in each
+    ConstAxes<Real> cell;                         ///< of each point, whole numbers, unless `exact`
+    bool exact;                                   ///< the places tell the cells of a bucket apart
     const PointSpan *buckets_begin, *buckets_end; ///< ascending, those of one point left out
     std::size_t largest_bucket;                   ///< points
-    const std::uint8_t* pinned;        ///< per point
-    Real apart;                        ///< m, twice the thickness
+    const std::uint8_t* pinned;                   ///< per point
+    Real apart;                                   ///< m, twice the thickness
     Real reach_squared; ///< m²: points that are not nearer at the beginning do not get nearer than `apart`
     /// The same in units: points for which the sum of the squares, each over 65536 and rounded down, is not larger.
     std::int16_t near;
