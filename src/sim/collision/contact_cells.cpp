@@ -39,8 +39,8 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     const CellKeys<Real> keys = work.kernels->cell_keys({std::as_const(position).axes(), count, width}, bits,
                                                         s.anchor.axes(), s.key.data(), s.places());
     const std::uint32_t mask = (std::uint32_t{1} << bits) - 1;
-    const BucketList buckets = work.kernels->sort_by_bucket({s.key.data(), count, mask, s.run_end.data(),
-                                                             s.cell_end.data(), s.order.data(), s.buckets.data()});
+    const BucketList buckets = work.kernels->sort_by_bucket(
+        {s.key.data(), count, mask, s.run_end.data(), s.cell_end.data(), s.order.data(), s.buckets.data()});
 
     // Of points that are no longer finite, all that are not very far apart are looked at.
     constexpr double most = 1e19;

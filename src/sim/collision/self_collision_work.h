@@ -50,12 +50,12 @@ struct SelfCollisionWork {
 
     // Points sorted by cell: while the list is made, and many contacts. Then there is no list, and `anchor` has the
     // cells of all points as whole numbers where their keys do not tell them apart.
-    AlignedVector<std::uint32_t> key;        ///< of each point's cell
-    std::vector<std::uint32_t> order;        ///< points by cell
-    std::vector<std::uint32_t> cell_end;     ///< per cell, or bucket of cells
-    AlignedVector<std::uint32_t> run_end;    ///< of points that follow each other in a cell
-    std::vector<PointSpan> buckets;          ///< of several points, in `order`
-    AlignedVector<std::byte> sorted;         ///< the list: four Reals per point; many contacts: a place per point
+    AlignedVector<std::uint32_t> key;     ///< of each point's cell
+    std::vector<std::uint32_t> order;     ///< points by cell
+    std::vector<std::uint32_t> cell_end;  ///< per cell, or bucket of cells
+    AlignedVector<std::uint32_t> run_end; ///< of points that follow each other in a cell
+    std::vector<PointSpan> buckets;       ///< of several points, in `order`
+    AlignedVector<std::byte> sorted;      ///< the list: four Reals per point; many contacts: a place per point
 
     /// Three coordinates and the index, each a vector of padding behind.
     std::array<Real*, 4> sorted_axes() {

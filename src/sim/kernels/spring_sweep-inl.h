@@ -96,7 +96,7 @@ class BlockForces {
 public:
     /// Forces are looked at so many points after they were stored: by then, what is loaded across two stores has
     /// reached the cache.
-    static constexpr std::ptrdiff_t lag = 2 * lanes<Real>, points = 2 * static_cast<std::ptrdiff_t>(sweep_grain);
+    static constexpr std::ptrdiff_t lag = 2 * lanes<Real>, points = 4 * static_cast<std::ptrdiff_t>(sweep_grain);
 
     /// Before the first block there is nothing; what is in it has been stored when it is looked at.
     BlockForces() {

@@ -22,7 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace clothlab::sim::HWY_NAMESPACE {
 
 /// Of the points i, i + 1, ..., those of which a spring may be over the limit, by stencil entry; by squares, and a few
-/// units in the last place early, so that none is missed. Two rows must lie before i.
+/// units in the last place early, so that none is missed.
 template <class Real>
 struct MayBeOver {
     LaneMask<Real> up, left, upper_left, upper_right, two_left, two_up;
@@ -40,18 +40,30 @@ HWY_INLINE LaneMask<Real> longer(const LimitArguments<Real>& a, const Lane3<Real
     return hn::Gt(dot3(v, v), hn::Mul(hn::Mul(rest, rest), hn::Set(d, limit_filter<Real>)));
 }
 
-template <class Real>
-HWY_INLINE MayBeOver<Real> may_be_over(const LimitArguments<Real>& a, const Columns<Real>& column, std::ptrdiff_t i) {
+/// Of the points before `end`, which have so many rows above them, up to two. What their springs reach must lie in the
+/// array, also where there is no spring.
+template <int rows_above, class Real>
+HWY_INLINE MayBeOver<Real> may_be_over(const LimitArguments<Real>& a, const Columns<Real>& column, std::ptrdiff_t i,
+                                       std::size_t end) {
     const auto columns = static_cast<std::ptrdiff_t>(a.columns);
     const Lane3<Real> x = load3(a.x, i);
-    const auto exists = lanes_before<Real>(static_cast<std::ptrdiff_t>(a.points) - i);
+    const auto exists = lanes_before<Real>(static_cast<std::ptrdiff_t>(end) - i);
     const auto has_left = hn::And(exists, column.has_left());
-    return {hn::And(exists, longer(a, x, 0, i, i - columns)),
-            hn::And(has_left, longer(a, x, 1, i, i - 1)),
-            hn::And(has_left, longer(a, x, 2, i, i - columns - 1)),
-            hn::And(hn::And(exists, column.has_right()), longer(a, x, 3, i, i - columns + 1)),
-            hn::And(hn::And(exists, column.has_two_left()), longer(a, x, 4, i, i - 2)),
-            hn::And(exists, longer(a, x, 5, i, i - 2 * columns))};
+    const auto none = hn::FirstN(Tag<Real>(), 0);
+    MayBeOver<Real> over{none,
+                         hn::And(has_left, longer(a, x, 1, i, i - 1)),
+                         none,
+                         none,
+                         hn::And(hn::And(exists, column.has_two_left()), longer(a, x, 4, i, i - 2)),
+                         none};
+    if constexpr (rows_above >= 1) {
+        over.up = hn::And(exists, longer(a, x, 0, i, i - columns));
+        over.upper_left = hn::And(has_left, longer(a, x, 2, i, i - columns - 1));
+        over.upper_right = hn::And(hn::And(exists, column.has_right()), longer(a, x, 3, i, i - columns + 1));
+    }
+    if constexpr (rows_above == 2)
+        over.two_up = hn::And(exists, longer(a, x, 5, i, i - 2 * columns));
+    return over;
 }
 
 /// Where vectors begin that have two rows before them.
@@ -66,17 +78,18 @@ std::size_t first_over_limit(const LimitArguments<Real>& a, std::size_t from, st
     from = HWY_MAX(from, vectors_from(a)); // those before it the sweep does one by one in any case
     Columns<Real> column(a.columns, from);
     for (std::size_t i = from; i < to; i += HWY_LANES(Real)) {
-        if (!hn::AllFalse(d, may_be_over(a, column, static_cast<std::ptrdiff_t>(i)).any()))
+        if (!hn::AllFalse(d, may_be_over<2>(a, column, static_cast<std::ptrdiff_t>(i), a.points).any()))
             return i;
         column.advance();
     }
     return a.points;
 }
 
-/// A vector of points, of which some springs may be over the limit, gone through one by one: those with a bit set, by
-/// stencil entry.
+/// A vector of points before `end`, of which some springs may be over the limit, gone through one by one: those with a
+/// bit set, by stencil entry.
 template <class Real>
-HWY_INLINE std::size_t limit_vector(const LimitArguments<Real>& a, std::size_t i, const MayBeOver<Real>& over) {
+HWY_INLINE std::size_t limit_vector(const LimitArguments<Real>& a, std::size_t i, std::size_t end,
+                                    const MayBeOver<Real>& over) {
     constexpr std::size_t step = HWY_LANES(Real);
     const std::uint32_t bits[stencil_size] = {bits_of<Real>(over.up),         bits_of<Real>(over.left),
                                               bits_of<Real>(over.upper_left), bits_of<Real>(over.upper_right),
@@ -87,7 +100,7 @@ HWY_INLINE std::size_t limit_vector(const LimitArguments<Real>& a, std::size_t i
             springs |= (bits[s] >> l & 1u) << s;
         return springs;
     };
-    const std::uint32_t all = static_cast<std::uint32_t>((1u << HWY_MIN(a.points - i, step)) - 1u);
+    const std::uint32_t all = static_cast<std::uint32_t>((1u << HWY_MIN(end - i, step)) - 1u);
     const bool short_rows = a.columns < step + 3;
     std::size_t count = 0;
     // What corrections make necessary at the next two points.
@@ -119,23 +132,40 @@ HWY_INLINE std::size_t limit_vector(const LimitArguments<Real>& a, std::size_t i
     return count;
 }
 
-template <class Real>
-std::size_t limit(const LimitArguments<Real>& a, std::size_t from) {
+/// The sweep at the points [begin, end), that have so many rows above them, up to two. Returns how many springs it
+/// shortened.
+template <int rows_above, class Real>
+HWY_INLINE std::size_t limit_rows(const LimitArguments<Real>& a, std::size_t begin, std::size_t end) {
     const Tag<Real> d;
     std::size_t shortened = 0;
-    const std::size_t vectors = vectors_from(a);
-    for (std::size_t i = 0; i < HWY_MIN(vectors, a.points); ++i)
-        shortened += static_cast<std::size_t>(std::popcount(limit_point(a, i)));
-    if (shortened != 0 || from < vectors)
-        from = vectors;
-    Columns<Real> column(a.columns, from);
-    for (std::size_t i = from; i < a.points; i += HWY_LANES(Real)) {
-        const MayBeOver<Real> over = may_be_over(a, column, static_cast<std::ptrdiff_t>(i));
+    Columns<Real> column(a.columns, begin);
+    for (std::size_t i = begin; i < end; i += HWY_LANES(Real)) {
+        const MayBeOver<Real> over = may_be_over<rows_above>(a, column, static_cast<std::ptrdiff_t>(i), end);
         if (HWY_UNLIKELY(!hn::AllFalse(d, over.any())))
-            shortened += limit_vector(a, i, over);
+            shortened += limit_vector(a, i, end, over);
         column.advance();
     }
     return shortened;
+}
+
+template <class Real>
+std::size_t limit(const LimitArguments<Real>& a, std::size_t from) {
+    const std::size_t vectors = vectors_from(a), head = HWY_MIN(vectors, a.points);
+    // In the first two rows all but those points whose springs would reach before the array.
+    const auto one = [&](std::size_t i) {
+        return i < head ? static_cast<std::size_t>(std::popcount(limit_point(a, i))) : 0;
+    };
+    const std::size_t first = HWY_MIN(a.columns, std::size_t{2});
+    std::size_t shortened = 0;
+    for (std::size_t i = 0; i < first; ++i)
+        shortened += one(i);
+    shortened += limit_rows<0>(a, first, HWY_MIN(a.columns, head));
+    shortened += one(a.columns);
+    shortened += limit_rows<1>(a, a.columns + 1, HWY_MIN(2 * a.columns, head));
+    shortened += limit_rows<2>(a, 2 * a.columns, head);
+    if (shortened != 0 || from < vectors)
+        from = vectors;
+    return shortened + limit_rows<2>(a, from, a.points);
 }
 
 } // namespace clothlab::sim::HWY_NAMESPACE
