@@ -13,8 +13,8 @@ namespace {
 
 /// Fewer buckets cost less to sort, but more of them hold several cells; as many points as this for each.
 constexpr std::size_t points_per_bucket = 8;
-/// Places in the widest vector.
-constexpr std::size_t most_lanes = 32;
+/// Reals in the widest vector.
+constexpr std::size_t most_lanes = 16;
 
 int bucket_bits(std::size_t points) {
     return std::countr_zero(std::bit_ceil(std::max<std::size_t>(points / points_per_bucket, 1)));

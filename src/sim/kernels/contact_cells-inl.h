@@ -112,7 +112,7 @@ CellKeys<Real> cell_keys(const CellArguments<Real>& a, int bucket_bits, const Ax
     return keys;
 }
 
-/// Vectors of places. Of no more than 16, which most buckets fill least: a vector of 32 takes as long as two of them.
+/// Vectors of places: of 16 at most, as most buckets have no more points, and one of 32 takes as long as two of 16.
 using PlaceTag = hn::CappedTag<std::int16_t, 16>;
 using PlaceLane = hn::Vec<PlaceTag>;
 constexpr std::size_t place_lanes = HWY_MIN(HWY_LANES(std::int16_t), 16);
@@ -324,7 +324,7 @@ HWY_INLINE std::size_t apply_pushes(const CellPassArguments<Real>& a, std::size_
                     for (std::uint64_t left = words[w]; left != 0; left &= left - 1)
                         if (const std::size_t q = first + 64 * w + static_cast<std::size_t>(std::countr_zero(left));
                             q != k)
-                            add(&batch.x[4 * q]);
+                            add(batch.x.data() + 4 * q);
             }
         });
     }
