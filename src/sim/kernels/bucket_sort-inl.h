@@ -52,12 +52,12 @@ HWY_INLINE std::size_t find_runs(const std::uint32_t* key, std::size_t count, st
 /// Writes the points i, i + 1, ... before `end`.
 HWY_INLINE void write_run(std::uint32_t i, std::uint32_t end, std::uint32_t* order) {
 #if HWY_TARGET == HWY_AVX3
-    const hn::ScalableTag<std::uint32_t> d;
+    const hn::FixedTag<std::uint32_t, 8> d; // few runs are longer
     const auto lane = hn::Iota(d, 0);
     do {
         hn::BlendedStore(hn::Add(lane, hn::Set(d, i)), hn::FirstN(d, end - i), d, order);
-        order += 16;
-        i += 16;
+        order += 8;
+        i += 8;
     } while (HWY_UNLIKELY(static_cast<std::int32_t>(end - i) > 0));
 #else
     do
@@ -66,10 +66,12 @@ HWY_INLINE void write_run(std::uint32_t i, std::uint32_t end, std::uint32_t* ord
 #endif
 }
 
-inline BucketList sort_by_bucket(const BucketSortArguments& a) {
+inline BucketList sort_by_bucket(const BucketSortArguments& arguments) {
+    const BucketSortArguments a = arguments; // what is stored is none of them: they stay in registers
     const std::size_t runs = find_runs(a.key, a.count, a.run_end), buckets = std::size_t{a.mask} + 1;
     std::fill_n(a.next, buckets, 0u);
-    for (std::uint32_t run = 0, first = 0; run < runs; ++run) {
+    std::uint32_t first = 0;
+    for (std::size_t run = 0; run < runs; ++run) {
         const std::uint32_t end = a.run_end[run];
         a.next[a.key[first] & a.mask] += end - first;
         first = end;
@@ -84,7 +86,8 @@ inline BucketList sort_by_bucket(const BucketSortArguments& a) {
         largest = HWY_MAX(largest, size);
     }
     list.largest = largest;
-    for (std::uint32_t run = 0, first = 0; run < runs; ++run) {
+    first = 0;
+    for (std::size_t run = 0; run < runs; ++run) {
         const std::uint32_t end = a.run_end[run];
         std::uint32_t& next = a.next[a.key[first] & a.mask];
         write_run(first, end, a.order + std::exchange(next, next + end - first));
