@@ -305,8 +305,8 @@ HWY_INLINE void store_point(const CellPassArguments<Real>& a, std::size_t i, con
         a.x[axis][i] = x[axis];
 }
 
-/// Moves the batch's points that are near others, one after the other, unless they are pinned. Returns how many really
-/// were near enough.
+/// Moves the batch's points that are near others, those of a bucket one after the other, unless they are pinned.
+/// Returns how many really were near enough.
 template <bool one_word, class Real>
 HWY_INLINE std::size_t apply_pushes(const CellPassArguments<Real>& a, std::size_t begin, std::size_t active,
                                     int word_bits, Batch<Real>& batch) {
@@ -320,7 +320,16 @@ HWY_INLINE std::size_t apply_pushes(const CellPassArguments<Real>& a, std::size_
         free += a.pinned[i] ? 0 : 1;
     }
     Pusher<Real> pusher(a.apart, a.substeps);
-    for (std::size_t n = 0; n < free; ++n) {
+    // Points of different buckets by turns, from the beginning and from the middle on: a point mostly waits for the one
+    // before it in its bucket.
+    std::size_t half = free / 2;
+    while (half < free && half > 0 && batch.active[half].bucket == batch.active[half - 1].bucket)
+        ++half;
+    for (std::size_t low = 0, high = half; low + high < half + free;) {
+        const bool from_high = low == half || (high < free && high - half < low);
+        const std::size_t n = from_high ? high : low;
+        low += from_high ? 0 : 1;
+        high += from_high ? 1 : 0;
         const std::size_t k = batch.active[n].point, first = batch.active[n].bucket;
         const Real* bucket = &batch.x[4 * first];
         const std::uint64_t* words = &batch.near[k << (one_word ? 0 : word_bits)];
