@@ -101,6 +101,7 @@ Json json_of(const BenchTable& table) {
     for (const experiments::BenchFigure& figure : table.summary)
         summary.push_back({{"name", figure.name},
                            {"value", figure.value},
+                           {"fastest_rounds", figure.fastest},
                            {"unit", figure.unit},
                            {"at_least", json_of(figure.at_least)},
                            {"at_most", json_of(figure.at_most)},
@@ -209,17 +210,19 @@ void print_growth(const BenchTable& table) {
 void print_summary(const BenchTable& table) {
     if (table.summary.empty())
         return;
-    std::cout << "\nsummary of the kernel " << table.best_kernel << "\n";
+    std::cout << "\nsummary of the kernel " << table.best_kernel
+              << ": by the median rounds, and by the fastest, which other work on the machine disturbs least\n";
+    const auto number = [](double value) { return text("%9.*f", value < 100 ? 1 : 0, value); };
     for (const experiments::BenchFigure& figure : table.summary) {
         std::string wanted;
         if (figure.at_least)
-            wanted = text(" at least %g", *figure.at_least);
+            wanted = text(", at least %g", *figure.at_least);
         if (figure.at_most)
-            wanted = text(" at most %g", *figure.at_most);
+            wanted = text(", at most %g", *figure.at_most);
         if (figure.aim)
             wanted += text(", aim %g", *figure.aim);
-        std::cout << text("%-82s %8.*f %-7s%s\n", figure.name.c_str(), figure.value < 100 ? 1 : 0, figure.value,
-                          figure.unit.c_str(), wanted.c_str());
+        std::cout << text("%-83s", figure.name.c_str()) << number(figure.value) << number(figure.fastest)
+                  << text(" %s%s\n", figure.unit.c_str(), wanted.c_str());
     }
 }
 

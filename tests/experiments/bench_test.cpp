@@ -160,7 +160,8 @@ TEST_CASE("The summary has the figures that the rows allow") {
             group.rows[1].kernel = "best";
             group.rows[1].precision = sim::Precision::single_precision;
             group.rows[1].speedup = 12;
-            group.rows[1].step.median = 1e-3;
+            group.rows[0].step.min = 8e-3;
+            group.rows[1].step = {.median = 1e-3, .min = 0.5e-3};
             group.rows[1].ns_per_point = n;
             table.groups.push_back(group);
         }
@@ -170,10 +171,12 @@ TEST_CASE("The summary has the figures that the rows allow") {
     const std::vector<BenchFigure> one = summarise(table_of({50}));
     REQUIRE(one.size() == 1);
     REQUIRE(one.front().value == 12);
+    REQUIRE(one.front().fastest == 16);
     REQUIRE(one.front().at_least == 10.0);
     const std::vector<BenchFigure> both = summarise(table_of({50, 512}));
     REQUIRE(both.size() == 3);
     REQUIRE(both[1].value == 1000);
+    REQUIRE(both[1].fastest == 2000);
     REQUIRE(both[1].unit == "steps/s");
     REQUIRE(both[2].value == 512 / 50.0);
     REQUIRE(both[2].at_most == 1.5);

@@ -80,6 +80,7 @@ struct BenchGroup {
 struct BenchFigure {
     std::string name;
     double value = 0;
+    double fastest = 0; ///< the same of the fastest round instead of the median one: other work disturbs it least
     std::string unit;
     std::optional<double> at_least = {}, at_most = {}, aim = {};
 };

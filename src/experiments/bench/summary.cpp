@@ -37,6 +37,7 @@ public:
         if (const BenchRow* r = row(name, 50, precision, 1))
             add({.name = "full step: textbook to kernel, " + name + " 50 x 50, " + name_of(precision) + ", 1 thread",
                  .value = r->speedup,
+                 .fastest = group(name, 50)->textbook().step.min / r->step.min,
                  .unit = "x",
                  .at_least = precision == single_precision ? 10 : 6,
                  .aim = precision == single_precision ? std::optional(20.0) : std::nullopt});
@@ -47,10 +48,15 @@ public:
             if (!r)
                 continue;
             const std::string which = std::string(", ") + name + " 50 x 50, single, " + on_threads(threads);
-            add({.name = "forces + Verlet: textbook to kernel" + which, .value = r->forces_speedup, .unit = "x"});
+            const double fastest = r->forces_and_verlet.min;
+            add({.name = "forces + Verlet: textbook to kernel" + which,
+                 .value = r->forces_speedup,
+                 .fastest = group(name, 50)->textbook().forces_and_verlet.min / fastest,
+                 .unit = "x"});
             if (r->forces_to_full_step)
                 add({.name = "textbook's full step to kernel's forces + Verlet" + which,
                      .value = *r->forces_to_full_step,
+                     .fastest = group("pinned", 50)->textbook().step.min / fastest,
                      .unit = "x"});
         }
     }
@@ -59,6 +65,7 @@ public:
             add({.name =
                      name + " " + std::to_string(n) + " x " + std::to_string(n) + ", single, " + on_threads(threads),
                  .value = r->steps_per_s(),
+                 .fastest = 1 / r->step.min,
                  .unit = "steps/s",
                  .at_least = real_time ? std::optional(group(name, n)->steps_per_second) : std::nullopt});
     }
@@ -68,6 +75,7 @@ public:
             add({.name = "time per point: 512 x 512 to 50 x 50, " + name + ", " + name_of(precision) + ", " +
                          on_threads(threads),
                  .value = large->ns_per_point / small->ns_per_point,
+                 .fastest = large->step.min / (512.0 * 512.0) / (small->step.min / (50.0 * 50.0)),
                  .unit = "x",
                  .at_most = 1.5});
     }
