@@ -1,4 +1,4 @@
-// What the kernels share: vectors of three coordinates, lane masks of the grid's borders, shifts across vectors.
+// What the kernels share: vectors of three coordinates, lane masks of the grid's borders.
 // Included once per instruction set, as Highway's foreach_target.h does it.
 #if defined(CLOTHLAB_SIM_KERNELS_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLOTHLAB_SIM_KERNELS_VECTORS_INL_H
@@ -80,46 +80,6 @@ template <class Real>
 HWY_INLINE Lane3<Real> set3(Real x, Real y, Real z) {
     const Tag<Real> d;
     return {hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
-}
-
-/// The lanes n, n + 1, ... of `low` followed by `high`.
-template <int n, class Real>
-HWY_INLINE Lane<Real> shifted(Lane<Real> high, Lane<Real> low) {
-    constexpr int all = static_cast<int>(lanes<Real>);
-    static_assert(n >= 0 && n <= all);
-    const Tag<Real> d;
-    if constexpr (n == 0) {
-        return low;
-    } else if constexpr (n == all) {
-        return high;
-    } else {
-#if HWY_TARGET == HWY_AVX3
-        if constexpr (sizeof(Real) == 4) {
-            const hn::Repartition<std::int32_t, Tag<Real>> di;
-            using Bits = decltype(hn::Zero(di));
-            return hn::BitCast(d, Bits{_mm512_alignr_epi32(hn::BitCast(di, high).raw, hn::BitCast(di, low).raw, n)});
-        } else {
-            const hn::Repartition<std::int64_t, Tag<Real>> di;
-            using Bits = decltype(hn::Zero(di));
-            return hn::BitCast(d, Bits{_mm512_alignr_epi64(hn::BitCast(di, high).raw, hn::BitCast(di, low).raw, n)});
-        }
-#elif HWY_TARGET == HWY_AVX2
-        constexpr int half = all / 2;
-        const auto middle = hn::ConcatLowerUpper(d, high, low);
-        if constexpr (n == half)
-            return middle;
-        else if constexpr (n < half)
-            return hn::CombineShiftRightLanes<n>(d, middle, low);
-        else
-            return hn::CombineShiftRightLanes<n - half>(d, high, middle);
-#else
-        return hn::CombineShiftRightLanes<n>(d, high, low);
-#endif
-    }
-}
-template <int n, class Real>
-HWY_INLINE Lane3<Real> shifted3(const Lane3<Real>& high, const Lane3<Real>& low) {
-    return {shifted<n, Real>(high.x, low.x), shifted<n, Real>(high.y, low.y), shifted<n, Real>(high.z, low.z)};
 }
 
 /// Lanes l with l >= count.
