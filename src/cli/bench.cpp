@@ -212,7 +212,7 @@ void print_summary(const BenchTable& table) {
         return;
     std::cout << "\nsummary of the kernel " << table.best_kernel
               << ": by the median rounds, and by the fastest, which other work on the machine disturbs least\n";
-    const auto number = [](double value) { return text("%9.*f", value < 100 ? 1 : 0, value); };
+    const auto number = [](double value) { return text("%7.*f", value < 100 ? 1 : 0, value); };
     for (const experiments::BenchFigure& figure : table.summary) {
         std::string wanted;
         if (figure.at_least)
