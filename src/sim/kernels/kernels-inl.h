@@ -19,6 +19,7 @@
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 #include "sim/kernels/bucket_sort-inl.h"
+#include "sim/kernels/cell_keys-inl.h"
 #include "sim/kernels/contact_cells-inl.h"
 #include "sim/kernels/contacts-inl.h"
 #include "sim/kernels/limit_bands-inl.h"
