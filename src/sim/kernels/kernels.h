@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -61,17 +62,29 @@ struct SweepArguments {
 };
 
 inline constexpr std::size_t sweep_grain = 64;
-/// Values of scratch memory per axis: for a window of unfinished forces, two rows and more, and for a copy of the first
-/// two rows, with two rows before them.
-constexpr std::ptrdiff_t sweep_window(std::size_t columns) {
-    return static_cast<std::ptrdiff_t>((4 * columns + 16 * sweep_grain) / sweep_grain * sweep_grain);
+
+/// Of a sweep's ring of unfinished forces: slots, two rows and three vectors at least, a power of two; the room before
+/// and behind them, a vector; how far one of its arrays is from the next. That is an odd number of cache lines, so that
+/// no two have the same place in the first-level cache, and the same for all cloths that are not wide.
+inline constexpr std::ptrdiff_t sweep_ring_margin = 16, sweep_ring_narrow = 368;
+constexpr std::ptrdiff_t sweep_ring_length(std::size_t columns) {
+    return static_cast<std::ptrdiff_t>(std::bit_ceil(2 * columns + 4 * sweep_ring_margin));
+}
+constexpr std::ptrdiff_t sweep_ring_stride(std::size_t columns) {
+    const std::ptrdiff_t least = sweep_ring_length(columns) + 3 * sweep_ring_margin;
+    return least < sweep_ring_narrow ? sweep_ring_narrow : least;
+}
+/// Values of scratch memory: for the ring's twelve arrays and, per axis, for a copy of the first two rows, with two
+/// rows before them.
+constexpr std::ptrdiff_t sweep_ring(std::size_t columns) {
+    return 12 * sweep_ring_stride(columns);
 }
 constexpr std::ptrdiff_t sweep_head(std::size_t columns) {
     return static_cast<std::ptrdiff_t>(4 * columns + sweep_grain);
 }
-/// How many values of scratch memory a sweep needs, zero at first.
+/// How many values of scratch memory a sweep needs.
 constexpr std::size_t sweep_scratch(std::size_t columns) {
-    return 3 * static_cast<std::size_t>(sweep_window(columns) + sweep_head(columns));
+    return static_cast<std::size_t>(sweep_ring(columns) + 3 * sweep_head(columns));
 }
 
 template <class Real>

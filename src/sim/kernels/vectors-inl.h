@@ -1,4 +1,4 @@
-// What the kernels share: vectors of three coordinates, lane masks of the grid's borders.
+// What the kernels share: vectors of three coordinates, lane masks of the grid's borders, shifts across vectors.
 // Included once per instruction set, as Highway's foreach_target.h does it.
 #if defined(CLOTHLAB_SIM_KERNELS_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLOTHLAB_SIM_KERNELS_VECTORS_INL_H
@@ -80,6 +80,39 @@ template <class Real>
 HWY_INLINE Lane3<Real> set3(Real x, Real y, Real z) {
     const Tag<Real> d;
     return {hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
+}
+
+/// The lanes n, n + 1, ... of `low` followed by `high`; n is at most half of a vector, or all of it.
+template <int n, class Real>
+HWY_INLINE Lane<Real> shifted(Lane<Real> high, Lane<Real> low) {
+    constexpr int all = static_cast<int>(lanes<Real>);
+    static_assert(n > 0 && (2 * n <= all || n == all));
+    const Tag<Real> d;
+    if constexpr (n == all) {
+        return high;
+    } else {
+#if HWY_TARGET == HWY_AVX3
+        const hn::RebindToSigned<Tag<Real>> di;
+        using Bits = hn::Vec<decltype(di)>;
+        const auto h = hn::BitCast(di, high).raw, l = hn::BitCast(di, low).raw;
+        if constexpr (sizeof(Real) == 4)
+            return hn::BitCast(d, Bits{_mm512_alignr_epi32(h, l, n)});
+        else
+            return hn::BitCast(d, Bits{_mm512_alignr_epi64(h, l, n)});
+#elif HWY_TARGET == HWY_AVX2
+        const auto middle = hn::ConcatLowerUpper(d, high, low);
+        if constexpr (2 * n == all)
+            return middle;
+        else
+            return hn::CombineShiftRightLanes<n>(d, middle, low);
+#else
+        return hn::CombineShiftRightLanes<n>(d, high, low);
+#endif
+    }
+}
+template <int n, class Real>
+HWY_INLINE Lane3<Real> shifted3(const Lane3<Real>& high, const Lane3<Real>& low) {
+    return {shifted<n, Real>(high.x, low.x), shifted<n, Real>(high.y, low.y), shifted<n, Real>(high.z, low.z)};
 }
 
 /// Lanes l with l >= count.
