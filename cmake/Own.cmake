@@ -42,6 +42,11 @@ function(clothlab_own target)
             "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-alloc-size-larger-than>")
         target_link_options(${target} PUBLIC -fsanitize=${CLOTHLAB_SANITIZE})
     endif()
+    if(CMAKE_UNITY_BUILD)
+        # Several sources of a target are compiled as one, which takes less time: so their anonymous namespaces must not
+        # name two things alike. What one has in them does shadow what is local in the next, and to GCC they are headers.
+        target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    endif()
 endfunction()
 
 function(clothlab_library target) # PATTERN... [EXCLUDE FOLDER]
@@ -50,11 +55,11 @@ function(clothlab_library target) # PATTERN... [EXCLUDE FOLDER]
     clothlab_own(${target})
 endfunction()
 
-# Where there is no arithmetic with pointers these two checks take up to half the time to compile and find little: a null
-# pointer ends in a signal anyway.
+# Where there is no arithmetic with pointers these checks take more than half the time to compile and find little: a null
+# pointer ends in a signal anyway, and what others point to is checked.
 function(clothlab_fewer_checks target)
     if(CLOTHLAB_SANITIZE MATCHES address)
-        target_compile_options(${target} PRIVATE -fno-sanitize=null,alignment)
+        target_compile_options(${target} PRIVATE -fno-sanitize=null,alignment,pointer-overflow,object-size)
     endif()
 endfunction()
 

@@ -234,10 +234,10 @@ Json results(const Start& start, const sim::Simulation& simulation, std::uint64_
             {"hash", scene::hash_text(simulation.hash())}};
 }
 
-void print_table(const Json& json, const std::string& prefix = "") {
+void print_fields(const Json& json, const std::string& prefix = "") {
     for (const auto& item : json.items()) {
         if (item.value().is_object()) {
-            print_table(item.value(), prefix + item.key() + ".");
+            print_fields(item.value(), prefix + item.key() + ".");
             continue;
         }
         std::string key = prefix + item.key();
@@ -307,7 +307,7 @@ int run(const RunArguments& arguments) {
     if (arguments.json)
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n"; // file names need not be UTF-8
     else
-        print_table(json);
+        print_fields(json);
     return 0;
 }
 

@@ -137,9 +137,9 @@ struct Mesh {
 };
 
 /// Square blocks of cells and, on every further level, of two by two blocks, up to one block.
-class BlockTree {
+class TriangleTree {
 public:
-    explicit BlockTree(const Mesh& mesh) : mesh_(mesh) {
+    explicit TriangleTree(const Mesh& mesh) : mesh_(mesh) {
         levels_.push_back(make_level(mesh.columns, mesh.rows, leaf_side));
         for_each_block(levels_[0], [&](Index row, Index column, Box& box) {
             // A block's edges and triangles reach to the first points of the next blocks.
@@ -334,7 +334,7 @@ std::size_t count_intersections(int columns, int rows, std::span<const float> po
     if (columns < 2 || rows < 2)
         return 0;
     const Mesh mesh{static_cast<Index>(columns), static_cast<Index>(rows), positions};
-    const BlockTree tree(mesh);
+    const TriangleTree tree(mesh);
     if (coplanar(tree.root(), tree.root()))
         return 0;
     return tree.count() + count_apart(mesh);

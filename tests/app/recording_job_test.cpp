@@ -11,8 +11,6 @@ using namespace clothlab::test;
 
 namespace {
 
-constexpr auto single = sim::Precision::single_precision;
-
 app::RecordingJob::Result result_of(app::RecordingJob& job) {
     job.wait();
     REQUIRE_FALSE(job.status());

@@ -5,15 +5,13 @@
 
 #include "scene/fields.h"
 #include "support/files.h"
-#include "support/program.h"
+#include "support/run.h"
 
 using namespace clothlab;
 using namespace clothlab::test;
 using nlohmann::json;
 
 namespace {
-
-const std::string pinned2 = (checkout() / "tests/data/cs184-pinned2.json").string();
 
 /// Expects a status, nothing on standard output, and these parts on standard error.
 void require_failure(int status, const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {

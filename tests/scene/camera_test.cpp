@@ -35,7 +35,7 @@ scene::Camera random_camera(sim::SplitMix64& random) {
     return camera;
 }
 
-std::string error_of(const std::string& text) {
+std::string camera_error(const std::string& text) {
     try {
         scene::read_camera(text, "camera.json");
     } catch (const scene::SceneError& e) {
@@ -177,12 +177,12 @@ TEST_CASE("A camera file has the keys of a scene's camera, what it leaves out ha
 }
 
 TEST_CASE("A bad camera file is refused with its place") {
-    REQUIRE(error_of("{\n\"distance\": 0}").find("camera.json:2: camera.distance: 0 is not allowed") == 0);
-    REQUIRE(error_of("{\"fov\": 180}").find("from 1 to 170") != std::string::npos);
-    REQUIRE(error_of("{\"pitch\": 91}").find("from -90 to 90") != std::string::npos);
-    REQUIRE(error_of("{\"jaw\": 1}").find("did you mean \"yaw\"?") != std::string::npos);
-    REQUIRE(error_of("{\"projection\": \"oblique\"}").find("perspective") != std::string::npos);
-    REQUIRE(error_of("[]").find("an object") != std::string::npos);
-    REQUIRE(error_of("").find("camera.json") == 0);
-    REQUIRE(error_of("{\"target\": 1}").find("three numbers") != std::string::npos);
+    REQUIRE(camera_error("{\n\"distance\": 0}").find("camera.json:2: camera.distance: 0 is not allowed") == 0);
+    REQUIRE(camera_error("{\"fov\": 180}").find("from 1 to 170") != std::string::npos);
+    REQUIRE(camera_error("{\"pitch\": 91}").find("from -90 to 90") != std::string::npos);
+    REQUIRE(camera_error("{\"jaw\": 1}").find("did you mean \"yaw\"?") != std::string::npos);
+    REQUIRE(camera_error("{\"projection\": \"oblique\"}").find("perspective") != std::string::npos);
+    REQUIRE(camera_error("[]").find("an object") != std::string::npos);
+    REQUIRE(camera_error("").find("camera.json") == 0);
+    REQUIRE(camera_error("{\"target\": 1}").find("three numbers") != std::string::npos);
 }

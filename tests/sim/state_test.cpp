@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sim/simulation.h"
+#include "support/choices.h"
 #include "support/sheet.h"
 
 using namespace clothlab;
@@ -50,8 +51,6 @@ void require_refused(sim::Simulation& simulation, std::span<const std::byte> byt
     REQUIRE(simulation.frame() == frame);
     REQUIRE(simulation.substep() == substep);
 }
-
-const auto both_precisions = {sim::Precision::single_precision, sim::Precision::double_precision};
 
 } // namespace
 

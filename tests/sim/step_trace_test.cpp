@@ -10,6 +10,7 @@
 #include "sim/simulation.h"
 #include "sim/step_recorder.h"
 #include "sim/stretch_limit.h"
+#include "support/choices.h"
 #include "support/sheet.h"
 
 using namespace clothlab;
@@ -24,8 +25,6 @@ constexpr auto integrate = static_cast<std::size_t>(sim::Stage::integrate);
 constexpr auto self_collision = static_cast<std::size_t>(sim::Stage::self_collision);
 constexpr auto colliders = static_cast<std::size_t>(sim::Stage::colliders);
 constexpr auto limit = static_cast<std::size_t>(sim::Stage::limit);
-
-const auto both_precisions = {sim::Precision::single_precision, sim::Precision::double_precision};
 
 /// Within a few frames every stage has something to do.
 sim::Description busy_scene(sim::IntegratorId method, sim::Precision precision) {

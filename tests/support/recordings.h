@@ -9,6 +9,8 @@
 
 namespace clothlab::test {
 
+inline constexpr auto single = sim::Precision::single_precision;
+
 inline sim::Description recorded_cloth(int columns, int rows,
                                        sim::Precision precision = sim::Precision::single_precision) {
     sim::Description description;

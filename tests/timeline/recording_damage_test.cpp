@@ -16,7 +16,6 @@ using namespace clothlab::test;
 
 namespace {
 
-constexpr auto single = sim::Precision::single_precision;
 using States = std::map<std::pair<timeline::BranchId, std::uint64_t>, std::vector<std::byte>>;
 
 States states_of(const timeline::Timeline& timeline) {

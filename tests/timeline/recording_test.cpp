@@ -14,8 +14,6 @@ using namespace clothlab::test;
 
 namespace {
 
-constexpr auto single = sim::Precision::single_precision;
-
 bool same_clock(const timeline::FrameClock& a, const timeline::FrameClock& b) {
     return a.step == b.step && a.frame == b.frame && a.substep == b.substep && a.substeps == b.substeps &&
            a.time == b.time && a.dt == b.dt;

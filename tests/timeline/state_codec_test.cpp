@@ -12,6 +12,7 @@
 #include "sim/random.h"
 #include "sim/saved_state.h"
 #include "sim/simulation.h"
+#include "support/choices.h"
 #include "support/effort.h"
 
 using namespace clothlab;
@@ -20,8 +21,6 @@ using namespace clothlab::test;
 namespace {
 
 using Bytes = std::vector<std::byte>;
-constexpr auto both_precisions = {sim::Precision::single_precision, sim::Precision::double_precision};
-
 sim::Description hanging(int columns, int rows, sim::Precision precision) {
     sim::Description description;
     description.cloth.num_width_points = columns;

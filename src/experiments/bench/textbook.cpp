@@ -11,10 +11,11 @@
 namespace clothlab::experiments {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 /// Runs a stage, and adds the time it takes to `seconds` where that is asked for.
 template <class Work>
 auto staged(sim::StageSeconds& seconds, bool timed, sim::Stage stage, Work work) {
-    using Clock = std::chrono::steady_clock;
     const Clock::time_point start = timed ? Clock::now() : Clock::time_point();
     const auto result = work();
     if (timed)

@@ -261,10 +261,10 @@ struct SpringSweep {
         column.advance();
     }
 
-    /// Completes the forces along one axis on the points t, t + 1, ..., on which `two_up` pulls from the second row
+    /// Completes the forces along one axis on the points t, t + 1, ..., on which `below` pulls from the second row
     /// below.
     template <Place place, std::size_t axis>
-    HWY_INLINE void complete(std::ptrdiff_t t, const RingSlots& slots, Lane<Real> two_up) const {
+    HWY_INLINE void complete(std::ptrdiff_t t, const RingSlots& slots, Lane<Real> below) const {
         const auto begin = static_cast<std::ptrdiff_t>(a.begin), end = static_cast<std::ptrdiff_t>(a.end);
         if (place != Place::inside && (t + step <= begin || t >= end))
             return;
@@ -276,7 +276,7 @@ struct SpringSweep {
         if constexpr (pulls<2>)
             f = hn::Sub(f, ring.template load<Ring::upper_left, axis>(slots.below, 1));
         if constexpr (pulls<5>)
-            f = hn::Sub(f, two_up);
+            f = hn::Sub(f, below);
         if (place == Place::inside || (t >= begin && t + step <= end))
             hn::StoreU(swept<sink, Real>(a, f, a.x[axis] + t, a.out[axis] + t), Tag<Real>(), a.out[axis] + t);
         else

@@ -12,7 +12,7 @@ using namespace clothlab::test;
 
 namespace {
 
-constexpr int masses = 11;
+constexpr int hung_masses = 11;
 
 struct Vec2 {
     double z = 0, y = 0;
@@ -25,11 +25,11 @@ struct Catenary {
     double tension = 0;       ///< of the first spring, N
 
     Catenary(Vec2 end, double rest, double k, double weight) {
-        double h = k * rest, v = -0.5 * masses * weight;
+        double h = k * rest, v = -0.5 * hung_masses * weight;
         for (int i = 0; i < 100; ++i) { // Newton's method on where the last spring ends; it has a symmetric Jacobian
             double zz = 0, zy = 0, yy = 0;
             hang(h, v, rest, k, weight);
-            for (int s = 0; s <= masses; ++s) {
+            for (int s = 0; s <= hung_masses; ++s) {
                 const double vs = v + s * weight, t = std::hypot(h, vs), z = h / t, y = vs / t;
                 zz += rest / t * (1 - z * z) + 1 / k;
                 yy += rest / t * (1 - y * y) + 1 / k;
@@ -47,7 +47,7 @@ private:
     void hang(double h, double v, double rest, double k, double weight) {
         points.clear();
         Vec2 at;
-        for (int s = 0; s <= masses; ++s) {
+        for (int s = 0; s <= hung_masses; ++s) {
             const double vs = v + s * weight, t = std::hypot(h, vs), length = rest + t / k;
             at = {at.z + length * h / t, at.y + length * vs / t};
             points.push_back(at);
@@ -61,9 +61,10 @@ struct Hanging {
     Catenary catenary;
 
     Hanging(const sim::IntegratorInfo& method, double y)
-        : sheet(description(method, y)), catenary({0.8 * (masses + 1), 2.5}, 1, static_cast<double>(sheet.model.k[0]),
-                                                  -sheet.model.mass * sheet.model.gy) {
-        for (int row = 1; row <= masses + 1; ++row)
+        : sheet(description(method, y)),
+          catenary({0.8 * (hung_masses + 1), 2.5}, 1, static_cast<double>(sheet.model.k[0]),
+                   -sheet.model.mass * sheet.model.gy) {
+        for (int row = 1; row <= hung_masses + 1; ++row)
             for (const std::size_t i : {sheet.at(0, row), sheet.at(1, row)}) {
                 const Vec2 x = catenary.points[static_cast<std::size_t>(row - 1)];
                 sheet.place(i, {sheet.start.x[i], sheet.start.y[i] + x.y, sheet.start.z[i] - row + x.z});
@@ -71,9 +72,9 @@ struct Hanging {
     }
 
     static sim::Description description(const sim::IntegratorInfo& method, double y) {
-        sim::Description result = column(masses + 1, y, method);
+        sim::Description result = column(hung_masses + 1, y, method);
         for (const int c : {0, 1})
-            result.cloth.pinned.push_back({c, masses + 1});
+            result.cloth.pinned.push_back({c, hung_masses + 1});
         result.stepping.gravity = {0, -0.02 * result.cloth.ks / sim::point_mass(result.cloth), 0};
         result.stepping.iterations = 200;
         return result;
@@ -87,7 +88,7 @@ TEST_CASE("Forces balance on the discrete elastic catenary") {
     Sheet<double>& sheet = hanging.sheet;
     sim::evaluate_conservative_forces(sheet.model, sheet.state.position, sheet.work, sheet.work.force);
     double residual = 0, sag = 0;
-    for (int row = 1; row <= masses; ++row)
+    for (int row = 1; row <= hung_masses; ++row)
         for (const std::size_t i : {sheet.at(0, row), sheet.at(1, row)}) {
             residual = std::max(residual, norm(Sheet<double>::coordinates(sheet.work.force, i)));
             sag = std::max(sag, sheet.start.y[i] - sheet.position(i).y);

@@ -3,11 +3,11 @@
 #include <Eigen/Dense>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
-#include <catch2/generators/catch_generators_range.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <numbers>
 
 #include "sim/forces/forces.h"
+#include "support/choices.h"
 #include "support/oscillator.h"
 
 using namespace clothlab;
@@ -19,10 +19,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int masses = 9;
-
-sim::IntegratorInfo any_method() {
-    return GENERATE(from_range(sim::integrators().begin(), sim::integrators().end()));
-}
 
 /// Frequencies in units of sqrt(k/m), j from 1.
 double fixed_free(int j) {

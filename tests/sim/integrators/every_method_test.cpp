@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
-#include <catch2/generators/catch_generators_range.hpp>
 
 #include "sim/simulation.h"
 #include "support/allocations.h"
+#include "support/choices.h"
 #include "support/effort.h"
 #include "support/every_execution.h"
 #include "support/methods.h"
@@ -14,10 +14,6 @@ using namespace clothlab;
 using namespace clothlab::test;
 
 namespace {
-
-sim::IntegratorInfo any_method() {
-    return GENERATE(from_range(sim::integrators().begin(), sim::integrators().end()));
-}
 
 /// Of several vectors in width and, by its number of rows, several threads' work; falls onto a sphere, in double
 /// precision in wind.

@@ -1,9 +1,8 @@
 // Every method on the oscillator: its frequency, its damping and its limit are those of its formula.
 #include <catch2/catch_test_macros.hpp>
-#include <catch2/generators/catch_generators.hpp>
-#include <catch2/generators/catch_generators_range.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
+#include "support/choices.h"
 #include "support/oscillator.h"
 
 using namespace clothlab;
@@ -12,10 +11,6 @@ using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
 namespace {
-
-sim::IntegratorInfo any_method() {
-    return GENERATE(from_range(sim::integrators().begin(), sim::integrators().end()));
-}
 
 double frequency_error(const sim::IntegratorInfo& method, double y) {
     return propagation(method, y).argument() / y - 1;

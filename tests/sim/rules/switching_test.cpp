@@ -6,6 +6,7 @@
 
 #include "sim/simulation.h"
 #include "support/allocations.h"
+#include "support/choices.h"
 #include "support/effort.h"
 #include "support/every_execution.h"
 
@@ -47,8 +48,6 @@ sim::Description collapsing(sim::Precision precision, sim::IntegratorId integrat
     d.stepping.integrator = integrator;
     return d;
 }
-
-constexpr auto both_precisions = {sim::Precision::single_precision, sim::Precision::double_precision};
 
 } // namespace
 
