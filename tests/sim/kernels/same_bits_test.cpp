@@ -34,11 +34,12 @@ bool same_bits(const sim::Vec3Array<Real>& a, const sim::Vec3Array<Real>& b) {
     return a.size() == b.size();
 }
 
-/// Grids from the smallest to several vectors wide, and narrow ones.
+/// Grids from the smallest to several vectors wide, narrow ones, and some so wide that the sweep's ring is not the
+/// narrow one.
 sim::Description random_cloth(sim::SplitMix64& random) {
     const auto below = [&](std::uint64_t end) { return static_cast<int>(random.next() % end); };
     sim::Description d;
-    d.cloth.num_width_points = below(3) == 0 ? 2 + below(18) : 2 + below(60);
+    d.cloth.num_width_points = below(3) == 0 ? 2 + below(18) : below(8) == 0 ? 90 + below(60) : 2 + below(60);
     d.cloth.num_height_points = 2 + below(40);
     d.cloth.orientation = below(2) == 0 ? sim::Orientation::horizontal : sim::Orientation::vertical;
     d.cloth.enable_structural = below(4) != 0;
