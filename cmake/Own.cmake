@@ -67,7 +67,7 @@ function(clothlab_precompile target) # HEADER...
     endif()
 endfunction()
 
-# Where there is no arithmetic with pointers these checks take more than half the time to compile and find little: a null
+# Where there is no arithmetic with pointers these checks take up to half the time to compile and find little: a null
 # pointer ends in a signal anyway, and what others point to is checked.
 function(clothlab_fewer_checks target)
     if(CLOTHLAB_SANITIZE MATCHES address)

@@ -64,8 +64,8 @@ struct SweepArguments {
 inline constexpr std::size_t sweep_grain = 64;
 
 /// Of a sweep's ring of unfinished forces: slots, two rows and three vectors at least, a power of two; the room before
-/// and behind them, a vector; how far one of its arrays is from the next. That is an odd number of cache lines, so that
-/// no two have the same place in the first-level cache, and the same for all cloths that are not wide.
+/// and behind them, a vector; how far one of its arrays is from the next. That is an odd number of the widest vectors,
+/// so that no two have the same place in the first-level cache, and the same for all cloths that are not wide.
 inline constexpr std::ptrdiff_t sweep_ring_margin = 16, sweep_ring_narrow = 368;
 constexpr std::ptrdiff_t sweep_ring_length(std::size_t columns) {
     return static_cast<std::ptrdiff_t>(std::bit_ceil(2 * columns + 4 * sweep_ring_margin));
