@@ -38,9 +38,8 @@ ThreadPool::~ThreadPool() {
         worker.join();
 }
 
-void ThreadPool::start(int count, Call call, const void* context) {
+void ThreadPool::start(int count, Call call) {
     call_ = call;
-    context_ = context;
     unfinished_.store(count - 1, std::memory_order_relaxed);
     const std::uint64_t number = (ticket_.load(std::memory_order_relaxed) >> count_bits) + 1;
     ticket_.store((number << count_bits) | static_cast<std::uint64_t>(count));
@@ -61,7 +60,7 @@ void ThreadPool::work(int index) {
         // A ticket that is not for this thread may be replaced by the next at any time: nothing else may be read then.
         if (static_cast<std::uint64_t>(index) >= count)
             continue;
-        call_(context_, index);
+        call_(task_.data(), index);
         if (unfinished_.fetch_sub(1, std::memory_order_acq_rel) == 1)
             unfinished_.notify_one();
     }

@@ -2,10 +2,14 @@
 // it comes within microseconds, then asleep.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace clothlab::sim {
@@ -22,11 +26,17 @@ public:
 
     /// Calls task(0) here and task(1) ... task(count - 1) on the other threads, and returns when all are done. The
     /// tasks may not throw. To be called from one thread at a time.
+    ///
+    /// The task is copied for the others: what it holds by value reaches them at once, where references to the caller's
+    /// stack would have to be fetched one after the other, from lines that the caller goes on writing to: 3 % of the
+    /// sweep of 50 x 50 points on two threads.
     template <class Task>
     void run(int count, const Task& task) {
-        if (count > 1)
-            start(
-                count, [](const void* context, int index) { (*static_cast<const Task*>(context))(index); }, &task);
+        static_assert(std::is_trivially_copyable_v<Task> && sizeof(Task) <= task_room && alignof(Task) <= 64);
+        if (count > 1) {
+            std::memcpy(task_.data(), &task, sizeof task);
+            start(count, [](const void* copy, int index) { (*static_cast<const Task*>(copy))(index); });
+        }
         task(0);
         if (count > 1)
             finish();
@@ -34,14 +44,16 @@ public:
 
 private:
     using Call = void (*)(const void*, int);
-    void start(int count, Call call, const void* context);
+    void start(int count, Call call);
     void finish();
     void work(int index);
 
-    // Each on a cache line of its own: one is written by the caller, the other by the workers.
+    static constexpr std::size_t task_room = 320; ///< bytes
+
+    // Each on cache lines of its own: what the workers watch, what they read then, and what they write.
     alignas(64) std::atomic<std::uint64_t> ticket_{0}; ///< a running number, and how many threads it is for
+    alignas(64) std::array<std::byte, task_room> task_{};
     Call call_ = nullptr;
-    const void* context_ = nullptr;
     alignas(64) std::atomic<int> unfinished_{0};
     alignas(64) std::vector<std::thread> workers_;
 };

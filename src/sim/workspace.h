@@ -65,10 +65,11 @@ int for_ranges(const Model<Real>& model, Workspace<Real>& work, Task task) {
         task(0, std::size_t{0}, points);
         return 1;
     }
-    const auto from = [&](std::size_t index) {
-        return index == count ? points : points * index / count / sweep_grain * sweep_grain;
+    // Rounded up: the other threads begin a little later than this one.
+    const auto from = [points, count](std::size_t index) {
+        return std::min((points * index / count + sweep_grain - 1) / sweep_grain * sweep_grain, points);
     };
-    const auto range = [&](int index) {
+    const auto range = [from, task](int index) {
         task(index, from(static_cast<std::size_t>(index)), from(static_cast<std::size_t>(index) + 1));
     };
     work.pool->run(static_cast<int>(count), range);
