@@ -78,9 +78,11 @@ Json json_of(const BenchGroup& group, const BenchRow& row) {
             {"steps_per_s", row.steps_per_s()},
             {"ns_per_point", row.ns_per_point},
             {"speedup", row.speedup},
+            {"handout_speedup", json_of(row.handout_speedup)},
             {"forces_and_verlet_us", json_of(row.forces_and_verlet)},
             {"forces_and_verlet_speedup", row.forces_speedup},
             {"forces_and_verlet_to_pinned_textbook_step", json_of(row.forces_to_full_step)},
+            {"forces_and_verlet_to_pinned_handout_step", json_of(row.forces_to_handout)},
             {"springs_per_s", row.springs_per_s},
             {"cycles_per_spring", json_of(row.cycles_per_spring)},
             {"fma_peak_percent", row.fma_share * 100},
@@ -182,7 +184,8 @@ void print_growth(const BenchTable& table) {
             sizes.push_back(group.n);
         const auto column = static_cast<std::size_t>(std::find(sizes.begin(), sizes.end(), group.n) - sizes.begin());
         for (const BenchRow& row : group.rows) {
-            if (row.kernel != table.best_kernel && row.kernel != experiments::textbook_name)
+            if (row.kernel != table.best_kernel && row.kernel != experiments::textbook_name &&
+                row.kernel != experiments::handout_name)
                 continue;
             const std::string name =
                 text("%-14s %-9s %-7s %d", group.name.c_str(), row.kernel.c_str(), name_of(row.precision), row.threads);

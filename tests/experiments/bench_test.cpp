@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch_message.hpp>
 #include <catch2/catch_test_macros.hpp>
+#include <cmath>
 #include <set>
 
 #include "experiments/bench/bench.h"
@@ -91,7 +92,11 @@ TEST_CASE(
             kernels.insert(row.kernel);
             require_consistent(group, row);
             require_same_steps(group.textbook(), row);
+            REQUIRE(row.handout_speedup.has_value() == (group.name != "springs"));
+            REQUIRE(row.forces_to_handout > 0.0);
         }
+        REQUIRE(kernels.count(handout_name) == (group.name == "springs" ? 0u : 1u)); // it would be the textbook's
+        REQUIRE((!group.handout() || group.handout()->handout_speedup == 1.0));
         REQUIRE((group.textbook().self_contacts > 0) == (group.name == "falling" && n == 24));
         for (const sim::InstructionSet set :
              {sim::InstructionSet::scalar, sim::InstructionSet::avx2, sim::InstructionSet::avx512}) {
@@ -117,12 +122,14 @@ TEST_CASE("A filter leaves the runs it matches, and the textbook's to compare th
     for (const BenchGroup& group : table.groups) {
         REQUIRE(group.n == 8);
         REQUIRE(group.name != "pinned");
-        REQUIRE(group.rows.size() == 2);
-        REQUIRE(group.rows[1].kernel == "scalar");
-        REQUIRE(group.rows[1].precision == sim::Precision::single_precision);
-        REQUIRE_FALSE(group.rows[1].forces_to_full_step); // without the pinned case
+        REQUIRE(group.rows.size() == (group.name == "springs" ? 2 : 3));
+        REQUIRE(group.rows.back().kernel == "scalar");
+        REQUIRE(group.rows.back().precision == sim::Precision::single_precision);
+        REQUIRE_FALSE(group.rows.back().forces_to_full_step); // without the pinned case
+        REQUIRE_FALSE(group.rows.back().forces_to_handout);
     }
-    REQUIRE(on_one_thread("pinned/24/.*textbook").groups.front().rows.size() == 1);
+    REQUIRE(on_one_thread("pinned/24/.*textbook").groups.front().rows.size() == 2);
+    REQUIRE(on_one_thread("24/.*handout").groups.size() == 2); // not the springs alone
     REQUIRE_THROWS_AS(on_one_thread("("), BenchFilterError);
     REQUIRE_THROWS_AS(on_one_thread("velvet"), BenchFilterError);
 }
@@ -180,4 +187,22 @@ TEST_CASE("The summary has the figures that the rows allow") {
     REQUIRE(both[1].unit == "steps/s");
     REQUIRE(both[2].value == 512 / 50.0);
     REQUIRE(both[2].at_most == 1.5);
+
+    BenchTable pinned = table_of({50});
+    pinned.groups.front().name = "pinned";
+    BenchRow handout;
+    handout.kernel = handout_name;
+    handout.step.min = 10e-3;
+    pinned.groups.front().rows.push_back(handout);
+    BenchRow& best = pinned.groups.front().rows[1];
+    best.forces_and_verlet.min = 0.1e-3;
+    best.handout_speedup = 13;
+    best.forces_to_handout = 70;
+    const std::vector<BenchFigure> compared = summarise(pinned);
+    REQUIRE(compared.size() == 4); // two full steps; forces and Verlet against the textbook's, and the handout's step
+    REQUIRE(compared[1].value == 13);
+    REQUIRE(compared[1].fastest == 20);
+    REQUIRE(compared[3].value == 70);
+    REQUIRE(std::abs(compared[3].fastest - 100) < 1e-9);
+    REQUIRE(compared[3].at_least == 60.0);
 }

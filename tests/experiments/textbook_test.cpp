@@ -1,6 +1,8 @@
 // The textbook's simulator computes what the simulation computes: the bench compares cost, not results.
 #include <catch2/catch_message.hpp>
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -11,6 +13,7 @@
 
 using namespace clothlab;
 using namespace clothlab::test;
+using experiments::CellMap;
 using experiments::Textbook;
 
 namespace {
@@ -38,14 +41,15 @@ std::vector<sim::Vec3> positions(const auto& run) {
 /// Runs both; all bits and all counts of every step must agree. Returns the sums of the counts.
 sim::StepCounts require_same_bits(const sim::Description& description, int frames) {
     const auto simulation = sim::Simulation::create(description);
-    Textbook textbook(description);
+    Textbook textbook(description), handout(description, CellMap::handout);
     REQUIRE(positions(textbook) == positions(*simulation));
     sim::StepCounts sum;
     for (int frame = 0; frame < frames; ++frame) {
         for (int step = 0; step < description.stepping.substeps; ++step) {
-            const sim::StepCounts a = simulation->step(), b = textbook.step();
+            const sim::StepCounts a = simulation->step(), b = textbook.step(), c = handout.step();
             INFO("step " << simulation->steps());
             REQUIRE(a.self_contacts == b.self_contacts);
+            REQUIRE(a.self_contacts == c.self_contacts);
             REQUIRE(a.contacts == b.contacts);
             REQUIRE(a.shortened_springs == b.shortened_springs);
             sum.self_contacts += a.self_contacts;
@@ -54,6 +58,7 @@ sim::StepCounts require_same_bits(const sim::Description& description, int frame
         }
         INFO("frame " << simulation->frame());
         REQUIRE(positions(textbook) == positions(*simulation));
+        REQUIRE(positions(handout) == positions(*simulation));
     }
     return sum;
 }
@@ -113,7 +118,8 @@ TEST_CASE("A textbook's simulator goes on to the bit from where another one is p
 }
 
 TEST_CASE("A textbook's simulator times its stages when asked, counts its memory and its cells") {
-    Textbook textbook(shipped("self-collision", 10, 10));
+    const CellMap map = GENERATE(CellMap::fast, CellMap::handout);
+    Textbook textbook(shipped("self-collision", 10, 10), map);
     REQUIRE(textbook.springs() == 2 * 10 * 9 + 2 * 9 * 9 + 2 * 10 * 8);
     textbook.step();
     REQUIRE(textbook.stage_seconds() == sim::StageSeconds{});
@@ -125,6 +131,18 @@ TEST_CASE("A textbook's simulator times its stages when asked, counts its memory
     // Three by three points to a cell, more or less; a cell at the edge may hold one.
     REQUIRE(textbook.points_per_cell() > 1);
     REQUIRE(textbook.points_per_cell() < 12);
+}
+
+TEST_CASE("The textbook's simulator survives points that are nowhere") {
+    const sim::Description d = shipped("self-collision", 5, 5);
+    for (const CellMap map : {CellMap::fast, CellMap::handout}) {
+        Textbook textbook(d, map);
+        std::vector<sim::Vec3> places = positions(textbook);
+        places[7].y = std::nan("");
+        textbook.place(places, places);
+        REQUIRE(textbook.step().self_contacts == 0);
+        REQUIRE(std::isnan(textbook.position(7).y));
+    }
 }
 
 TEST_CASE("The textbook's simulator refuses what it does not have") {

@@ -122,12 +122,17 @@ void take_rounds(std::vector<Run>& runs, const Moment& moment, int steps, double
             take_turn(run, moment, steps, points);
 }
 
-/// The runs of a case that the filter wants, after the textbook's; none at all where it wants nothing.
+/// The runs of a case that the filter wants, after the textbook's and the handout's; none at all where it wants
+/// nothing.
 std::vector<Run> wanted_runs(const BenchCase& which, const BenchConfig& config, const Filter& filter) {
     const int n = which.description.cloth.num_width_points;
-    std::vector<Run> runs(1);
+    const bool collides = which.description.rules.self_collision == sim::SelfCollisionRule::cs184;
+    std::vector<Run> runs(collides ? 2 : 1);
     runs.front().row.kernel = textbook_name;
-    bool wanted = filter.wants(which.name, n, runs.front().row);
+    if (collides)
+        runs.back().row.kernel = handout_name;
+    bool wanted =
+        std::any_of(runs.begin(), runs.end(), [&](const Run& run) { return filter.wants(which.name, n, run.row); });
     for (const sim::Precision precision : {sim::Precision::double_precision, sim::Precision::single_precision}) {
         for (const sim::InstructionSetInfo& set : sim::instruction_sets()) {
             if (set.id == sim::InstructionSet::automatic || !sim::is_supported(set.id))
@@ -156,8 +161,9 @@ std::vector<Run> wanted_runs(const BenchCase& which, const BenchConfig& config, 
 
 void create_contestants(std::vector<Run>& runs, const sim::Description& description) {
     for (Run& run : runs) {
-        if (run.row.kernel == textbook_name) {
-            run.contestant = make_textbook_contestant(description);
+        if (run.row.kernel == textbook_name || run.row.kernel == handout_name) {
+            run.contestant = make_textbook_contestant(description, run.row.kernel == handout_name ? CellMap::handout
+                                                                                                  : CellMap::fast);
             continue;
         }
         sim::Execution execution{.threads = run.row.threads, .fewer_if_faster = false};
@@ -217,8 +223,13 @@ void derive(BenchGroup& group, const MachinePeak& machine, const sim::Descriptio
         const ThreadPeak& peak = machine.with(row.threads);
         row.speedup = group.textbook().step.median / row.step.median;
         row.forces_speedup = group.textbook().forces_and_verlet.median / seconds;
-        if (pinned)
+        if (const BenchRow* handout = group.handout())
+            row.handout_speedup = handout->step.median / row.step.median;
+        if (pinned) {
             row.forces_to_full_step = pinned->textbook().step.median / seconds;
+            if (const BenchRow* handout = pinned->handout())
+                row.forces_to_handout = handout->step.median / seconds;
+        }
         row.ns_per_point = row.step.median * 1e9 / points;
         row.springs_per_s = springs / seconds;
         if (machine.clock_ghz > 0)

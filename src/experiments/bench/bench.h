@@ -27,18 +27,22 @@ struct BenchConfig {
     sim::Description falling; ///< one that falls onto a plane and itself: "self-collision"
     std::vector<int> sizes;   ///< points along width and height
     std::vector<int> threads;
-    /// Only runs with a match of this regular expression in their name, CASE/SIZE/PRECISION/KERNEL/THREADS, and the
-    /// textbook's run of the same case and size. Where AVX2 is supported, `vec128` has to be named here to be timed.
+    /// Only runs with a match of this regular expression in their name, CASE/SIZE/PRECISION/KERNEL/THREADS, and those
+    /// of the handout and the textbook of the same case and size. Where AVX2 is supported, `vec128` has to be named
+    /// here to be timed.
     std::string filter;
     bool quick = false; ///< fewer rounds, and the machine's peaks measured once only
     /// Told what is timed next.
     std::function<void(const std::string&)> progress;
 };
 
+/// The textbook's algorithm with the fastest map for its cells (CellMap::fast), to which all is compared that does not
+/// say otherwise, and with the handout's, for cases with self-collision: the same but for that.
 inline constexpr const char* textbook_name = "textbook";
+inline constexpr const char* handout_name = "handout";
 
 struct BenchRow {
-    std::string kernel; ///< an instruction set's name, or textbook_name
+    std::string kernel; ///< an instruction set's name, textbook_name or handout_name
     sim::Precision precision = sim::Precision::double_precision;
     int threads = 1;
     int rounds = 0, steps = 0; ///< steps per round
@@ -53,6 +57,8 @@ struct BenchRow {
     double speedup = 0;                        ///< of the step over the textbook's
     double forces_speedup = 0;                 ///< of forces and Verlet over the textbook's
     std::optional<double> forces_to_full_step; ///< the textbook's full step of `pinned` at this size over the same
+    std::optional<double> handout_speedup;     ///< of the step over the handout's
+    std::optional<double> forces_to_handout;   ///< the handout's full step of `pinned` over forces and Verlet
     double ns_per_point = 0;                   ///< of the step
     double springs_per_s = 0;                  ///< in forces and Verlet, each of the cloth's springs counted once
     std::optional<double> cycles_per_spring;   ///< of wall time in forces and Verlet; empty where the clock is unknown
@@ -73,6 +79,7 @@ struct BenchGroup {
     std::vector<BenchRow> rows;  ///< the textbook's first
 
     const BenchRow& textbook() const { return rows.front(); }
+    const BenchRow* handout() const { return find(handout_name, sim::Precision::double_precision, 1); }
     const BenchRow* find(const std::string& kernel, sim::Precision precision, int threads) const;
 };
 

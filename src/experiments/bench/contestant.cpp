@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <thread>
 
-#include "experiments/bench/textbook.h"
 #include "sim/simulation.h"
 
 namespace clothlab::experiments {
@@ -46,7 +45,7 @@ private:
 
 class TextbookContestant final : public Contestant {
 public:
-    explicit TextbookContestant(const sim::Description& description) : textbook_(description) {}
+    TextbookContestant(const sim::Description& description, CellMap cells) : textbook_(description, cells) {}
     void start_from(const Moment& moment) override { textbook_.place(moment.position, moment.last); }
     sim::StepCounts step() override { return textbook_.step(); }
     void time_stages() override { textbook_.time_stages(true); }
@@ -86,8 +85,8 @@ std::unique_ptr<Contestant> make_contestant(const sim::Description& description,
     return std::make_unique<SimulationContestant>(description, precision, execution);
 }
 
-std::unique_ptr<Contestant> make_textbook_contestant(const sim::Description& description) {
-    return std::make_unique<TextbookContestant>(description);
+std::unique_ptr<Contestant> make_textbook_contestant(const sim::Description& description, CellMap cells) {
+    return std::make_unique<TextbookContestant>(description, cells);
 }
 
 } // namespace clothlab::experiments

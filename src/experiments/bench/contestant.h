@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "experiments/bench/textbook.h"
 #include "sim/description.h"
 #include "sim/execution.h"
 #include "sim/state.h"
@@ -37,6 +38,6 @@ public:
 
 std::unique_ptr<Contestant> make_contestant(const sim::Description& description, sim::Precision precision,
                                             const sim::Execution& execution);
-std::unique_ptr<Contestant> make_textbook_contestant(const sim::Description& description);
+std::unique_ptr<Contestant> make_textbook_contestant(const sim::Description& description, CellMap cells);
 
 } // namespace clothlab::experiments

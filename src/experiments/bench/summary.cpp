@@ -34,13 +34,21 @@ public:
     void add(BenchFigure figure) { figures_.push_back(std::move(figure)); }
 
     void full_step(const std::string& name, sim::Precision precision) {
-        if (const BenchRow* r = row(name, 50, precision, 1))
-            add({.name = "full step: textbook to kernel, " + name + " 50 x 50, " + name_of(precision) + ", 1 thread",
-                 .value = r->speedup,
-                 .fastest = group(name, 50)->textbook().step.min / r->step.min,
+        const BenchRow* r = row(name, 50, precision, 1);
+        if (!r)
+            return;
+        const auto add_one = [&](const char* baseline, double value, const BenchRow& to) {
+            add({.name = std::string("full step: ") + baseline + " to kernel, " + name + " 50 x 50, " +
+                         name_of(precision) + ", 1 thread",
+                 .value = value,
+                 .fastest = to.step.min / r->step.min,
                  .unit = "x",
                  .at_least = precision == single_precision ? 10 : 6,
                  .aim = precision == single_precision ? std::optional(20.0) : std::nullopt});
+        };
+        add_one(textbook_name, r->speedup, group(name, 50)->textbook());
+        if (r->handout_speedup)
+            add_one(handout_name, *r->handout_speedup, *group(name, 50)->handout());
     }
     void forces(int threads) {
         for (const char* name : {"pinned", "springs"}) {
@@ -58,6 +66,14 @@ public:
                      .value = *r->forces_to_full_step,
                      .fastest = group("pinned", 50)->textbook().step.min / fastest,
                      .unit = "x"});
+            if (r->forces_to_handout)
+                add({.name = "handout's full step to kernel's forces + Verlet" + which,
+                     .value = *r->forces_to_handout,
+                     .fastest = group("pinned", 50)->handout()->step.min / fastest,
+                     .unit = "x",
+                     .at_least = threads == 1   ? std::optional(60.0)
+                                 : threads == 2 ? std::optional(100.0)
+                                                : std::nullopt});
         }
     }
     void steps(const std::string& name, int n, int threads, bool real_time) {

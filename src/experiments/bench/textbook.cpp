@@ -25,7 +25,8 @@ auto staged(sim::StageSeconds& seconds, bool timed, sim::Stage stage, Work work)
 
 } // namespace
 
-Textbook::Textbook(const sim::Description& description) : description_(description) {
+Textbook::Textbook(const sim::Description& description, CellMap cells)
+    : description_(description), which_cells_(cells) {
     const sim::Cloth& cloth = description.cloth;
     if (description.wind.kind != sim::WindKind::none)
         throw std::invalid_argument("the textbook's simulator has no wind");
@@ -173,25 +174,71 @@ Textbook::Cell Textbook::cell_of(Vector3 p) const {
             std::floor(p.z / depth_of_cell_) + 0.0};
 }
 
-void Textbook::build_cells() {
-    map_.clear();
-    for (PointMass& pm : point_masses_)
-        map_[cell_of(pm.position)].push_back(&pm);
+const std::vector<Textbook::PointMass*>* Textbook::FastCells::find(const Cell& cell) const {
+    const auto found = map_.find(cell);
+    return found == map_.end() ? nullptr : &found->second;
 }
 
-std::size_t Textbook::collide_with_itself() {
-    build_cells();
+std::size_t Textbook::FastCells::memory_bytes() const {
+    std::size_t bytes = map_.bucket_count() * sizeof(void*);
+    for (const auto& cell : map_) // a node: the next one, the hash, the cell and its vector
+        bytes += 2 * sizeof(void*) + sizeof cell + cell.second.capacity() * sizeof(PointMass*);
+    return bytes;
+}
+
+double Textbook::FastCells::sum_of_squares() const {
+    std::size_t sum = 0;
+    for (const auto& cell : map_)
+        sum += cell.second.size() * cell.second.size();
+    return static_cast<double>(sum);
+}
+
+float Textbook::HandoutCells::key(const Cell& cell) {
+    return static_cast<float>((cell.x * 31 + cell.y) * 31 + cell.z);
+}
+
+void Textbook::HandoutCells::add(const Cell& cell, PointMass* pm) {
+    const float number = key(cell);
+    if (std::isnan(number)) // equals none, not even that which was just put in
+        return;
+    if (map_.find(number) == map_.end())
+        map_[number] = std::make_unique<std::vector<PointMass*>>();
+    map_[number]->push_back(pm);
+}
+
+const std::vector<Textbook::PointMass*>* Textbook::HandoutCells::find(const Cell& cell) {
+    const float number = key(cell);
+    return map_.find(number) == map_.end() ? nullptr : map_[number].get();
+}
+
+std::size_t Textbook::HandoutCells::memory_bytes() const {
+    std::size_t bytes = map_.bucket_count() * sizeof(void*);
+    for (const auto& cell : map_)
+        bytes += 2 * sizeof(void*) + sizeof cell + sizeof *cell.second + cell.second->capacity() * sizeof(PointMass*);
+    return bytes;
+}
+
+template <class Cells>
+void Textbook::sort_into(Cells& cells) {
+    cells.clear();
+    for (PointMass& pm : point_masses_)
+        cells.add(cell_of(pm.position), &pm);
+}
+
+template <class Cells>
+std::size_t Textbook::collide_with_itself(Cells& cells) {
+    sort_into(cells);
     const double apart = 2.0 * description_.cloth.thickness;
     std::size_t pairs = 0;
     for (PointMass& pm : point_masses_) {
         if (pm.pinned)
             continue;
-        const auto found = map_.find(cell_of(pm.position));
-        if (found == map_.end()) // a cell that is not a number equals none
+        const std::vector<PointMass*>* cell = cells.find(cell_of(pm.position));
+        if (!cell)
             continue;
         Vector3 sum;
         int count = 0;
-        for (const PointMass* other : found->second) {
+        for (const PointMass* other : *cell) {
             if (other == &pm)
                 continue;
             const Vector3 d = pm.position - other->position;
@@ -270,7 +317,10 @@ sim::StepCounts Textbook::step() {
     run(sim::Stage::forces, [this] { return add_forces(), 0; });
     run(sim::Stage::integrate, [this] { return integrate(), 0; });
     if (description_.rules.self_collision == sim::SelfCollisionRule::cs184)
-        counts.self_contacts = run(sim::Stage::self_collision, [this] { return collide_with_itself(); });
+        counts.self_contacts = run(sim::Stage::self_collision, [this] {
+            return which_cells_ == CellMap::fast ? collide_with_itself(fast_cells_)
+                                                 : collide_with_itself(handout_cells_);
+        });
     if (!objects_.empty()) {
         const auto [spheres, planes] = run(sim::Stage::colliders, [this] { return collide_with_objects(); });
         counts.sphere_contacts = spheres;
@@ -302,19 +352,14 @@ void Textbook::time_stages(bool on) {
 }
 
 std::size_t Textbook::memory_bytes() const {
-    std::size_t bytes = point_masses_.capacity() * sizeof(PointMass) + springs_.capacity() * sizeof(Spring) +
-                        map_.bucket_count() * sizeof(void*);
-    for (const auto& cell : map_) // a node: the next one, the hash, the cell and its vector
-        bytes += 2 * sizeof(void*) + sizeof cell + cell.second.capacity() * sizeof(PointMass*);
-    return bytes;
+    return point_masses_.capacity() * sizeof(PointMass) + springs_.capacity() * sizeof(Spring) +
+           fast_cells_.memory_bytes() + handout_cells_.memory_bytes();
 }
 
 double Textbook::points_per_cell() {
-    build_cells();
-    std::size_t sum = 0;
-    for (const auto& cell : map_)
-        sum += cell.second.size() * cell.second.size();
-    return static_cast<double>(sum) / static_cast<double>(points());
+    FastCells cells;
+    sort_into(cells);
+    return cells.sum_of_squares() / static_cast<double>(points());
 }
 
 } // namespace clothlab::experiments
