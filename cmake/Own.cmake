@@ -113,7 +113,11 @@ function(clothlab_tests target) # PATTERN... [PRECOMPILE HEADER...]
         target_compile_options(${target} PRIVATE -fno-sanitize-address-use-after-scope)
     endif()
     # Their time goes into clothlab's code, which is optimised, and they are compiled as often as they are run.
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    if(CLOTHLAB_SANITIZE)
+        target_compile_options(${target} PRIVATE -O0)
+    else()
+        target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
     # What nearly every test includes takes a second of each one's time to compile.
     target_precompile_headers(${target} PRIVATE
         <catch2/catch_test_macros.hpp> <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional>

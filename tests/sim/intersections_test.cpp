@@ -11,6 +11,7 @@
 
 #include "sim/grid.h"
 #include "sim/simulation.h"
+#include "support/effort.h"
 #include "support/sheet.h"
 
 using namespace clothlab;
@@ -146,7 +147,7 @@ TEST_CASE("Random clouds have as many intersections as brute force finds, at any
 TEST_CASE("Crumpled sheets of any proportions have as many intersections as brute force finds, with holes too") {
     const double scale = GENERATE(1e-30, 1.0, 1e30);
     for (const auto& [columns, rows] : {std::pair{2, 90}, {90, 2}, {3, 61}, {33, 17}, {16, 35}}) {
-        for (std::uint64_t seed = 0; seed < 2; ++seed) {
+        for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(attempts(2)); ++seed) {
             std::vector<float> positions = crumpled(columns, rows, seed, scale);
             const std::size_t whole = brute_force(columns, rows, positions);
             REQUIRE(whole > 20);
