@@ -46,9 +46,12 @@ void ThreadPool::start(int count, Call call) {
     ticket_.notify_all();
 }
 
-void ThreadPool::finish() {
-    for (int left = unfinished_.load(std::memory_order_acquire); left != 0;)
+bool ThreadPool::finish() {
+    int left = unfinished_.load(std::memory_order_acquire);
+    const bool others_were_last = left != 0;
+    while (left != 0)
         left = await_change(unfinished_, left);
+    return others_were_last;
 }
 
 void ThreadPool::work(int index) {

@@ -24,28 +24,28 @@ public:
 
     int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-    /// Calls task(0) here and task(1) ... task(count - 1) on the other threads, and returns when all are done. The
-    /// tasks may not throw. To be called from one thread at a time.
+    /// Calls task(0) here and task(1) ... task(count - 1) on the other threads, and returns when all are done:
+    /// whether the others still were at work when the calling thread had done its own. The tasks may not throw. To be
+    /// called from one thread at a time.
     ///
     /// The task is copied for the others: what it holds by value reaches them at once, where references to the caller's
     /// stack would have to be fetched one after the other, from lines that the caller goes on writing to: 3 % of the
     /// sweep of 50 x 50 points on two threads.
     template <class Task>
-    void run(int count, const Task& task) {
+    bool run(int count, const Task& task) {
         static_assert(std::is_trivially_copyable_v<Task> && sizeof(Task) <= task_room && alignof(Task) <= 64);
         if (count > 1) {
             std::memcpy(task_.data(), &task, sizeof task);
             start(count, [](const void* copy, int index) { (*static_cast<const Task*>(copy))(index); });
         }
         task(0);
-        if (count > 1)
-            finish();
+        return count > 1 && finish();
     }
 
 private:
     using Call = void (*)(const void*, int);
     void start(int count, Call call);
-    void finish();
+    bool finish();
     void work(int index);
 
     static constexpr std::size_t task_room = 320; ///< bytes

@@ -11,6 +11,7 @@
 #include "sim/kernels/kernels.h"
 #include "sim/limit_bands.h"
 #include "sim/model.h"
+#include "sim/pace.h"
 #include "sim/state.h"
 #include "sim/thread_choice.h"
 #include "sim/thread_pool.h"
@@ -23,6 +24,7 @@ struct Workspace {
     const Kernels<Real>* kernels = nullptr; ///< null: plain loops
     std::unique_ptr<ThreadPool> pool;
     ThreadChoice choice;
+    Pace pace;
 
     Vec3Array<Real> force;               ///< N; empty until something needs it
     std::vector<Vec3Array<Real>> arrays; ///< the method's, as many as it asks for
@@ -52,10 +54,13 @@ void prepare(const Model<Real>& model, Workspace<Real>& work);
 template <class Real>
 std::size_t memory_bytes(const Workspace<Real>& work);
 
+/// Whether a stage takes as long for each point, so that who is done last tells the threads' paces.
+enum class Effort : std::uint8_t { even, uneven };
+
 /// Calls task(index, begin, end) for ranges that cover all points, on as many threads as the steps use now. Ranges
 /// begin at multiples of sweep_grain and are long enough for a sweep. Returns how many there were.
 template <class Real, class Task>
-int for_ranges(const Model<Real>& model, Workspace<Real>& work, Task task) {
+int for_ranges(const Model<Real>& model, Workspace<Real>& work, Task task, Effort effort = Effort::uneven) {
     const std::size_t points = model.grid->points();
     const std::size_t least = std::max<std::size_t>(4 * static_cast<std::size_t>(model.grid->columns), 4 * sweep_grain);
     const std::size_t most = std::max<std::size_t>(points / least, 1);
@@ -65,14 +70,16 @@ int for_ranges(const Model<Real>& model, Workspace<Real>& work, Task task) {
         task(0, std::size_t{0}, points);
         return 1;
     }
-    // Rounded up: the other threads begin a little later than this one.
-    const auto from = [points, count](std::size_t index) {
-        return std::min((points * index / count + sweep_grain - 1) / sweep_grain * sweep_grain, points);
+    const auto from = [points, count, pace = work.pace](std::size_t index) {
+        const std::size_t even = pace.from(index, count, points);
+        return std::min((even + sweep_grain - 1) / sweep_grain * sweep_grain, points);
     };
     const auto range = [from, task](int index) {
         task(index, from(static_cast<std::size_t>(index)), from(static_cast<std::size_t>(index) + 1));
     };
-    work.pool->run(static_cast<int>(count), range);
+    const bool others_were_last = work.pool->run(static_cast<int>(count), range);
+    if (effort == Effort::even)
+        work.pace.learn(others_were_last);
     return static_cast<int>(count);
 }
 

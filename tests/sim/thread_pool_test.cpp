@@ -2,10 +2,13 @@
 #include "sim/thread_pool.h"
 
 #include <array>
+#include <atomic>
 #include <catch2/catch_test_macros.hpp>
 #include <chrono>
+#include <cmath>
 #include <vector>
 
+#include "sim/pace.h"
 #include "sim/thread_choice.h"
 #include "support/effort.h"
 
@@ -50,6 +53,65 @@ TEST_CASE("A pool of one thread starts none and does everything itself") {
     int done = 0;
     pool.run(1, [&](int) { ++done; });
     REQUIRE(done == 1);
+}
+
+TEST_CASE("A pool says whether the others were still at work when the calling thread was done", "[threads]") {
+    ThreadPool pool(3);
+    std::atomic<int> begun{0};
+    const auto until_all_have_begun = [&] {
+        ++begun;
+        while (begun < 3)
+            std::this_thread::yield();
+    };
+    const auto others_last = [&](int index) {
+        until_all_have_begun();
+        if (index == 2)
+            std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    };
+    REQUIRE(pool.run(3, others_last));
+    begun = 0;
+    const auto caller_last = [&](int index) {
+        until_all_have_begun();
+        if (index == 0)
+            std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    };
+    REQUIRE_FALSE(pool.run(3, caller_last));
+    REQUIRE_FALSE(pool.run(1, [](int) {}));
+}
+
+TEST_CASE("Parts cover all points whatever the pace, and none has less than half of an even share") {
+    Pace pace;
+    for (const bool slower : {true, false}) {
+        for (int i = 0; i < 200; ++i) {
+            pace.learn(slower);
+            for (const std::size_t count : {2u, 3u, 8u}) {
+                REQUIRE(pace.from(0, count, 1000) == 0);
+                REQUIRE(pace.from(count, count, 1000) == 1000);
+                for (std::size_t part = 0; part < count; ++part)
+                    REQUIRE(2 * count * (pace.from(part + 1, count, 1000) - pace.from(part, count, 1000)) >= 1000);
+            }
+        }
+        REQUIRE(pace.pace() == (slower ? 2.0 : 0.5));
+    }
+}
+
+TEST_CASE("A thread that takes longer for a point comes to have as many points fewer") {
+    for (const double others_slower : {0.7, 1.0, 1.5}) {
+        Pace pace;
+        constexpr std::size_t points = 1000000;
+        for (int step = 0; step < 300; ++step) {
+            const std::size_t own = pace.from(1, 2, points);
+            pace.learn(others_slower * static_cast<double>(points - own) > static_cast<double>(own));
+        }
+        REQUIRE(std::abs(pace.pace() / others_slower - 1) < 0.05);
+    }
+}
+
+TEST_CASE("Who is last by turns changes no thread's share") {
+    Pace pace;
+    for (int step = 0; step < 1000; ++step)
+        pace.learn(step % 4 < 2);
+    REQUIRE(pace.pace() == 1);
 }
 
 TEST_CASE("A run that is told to uses all its threads, in every step") {

@@ -69,13 +69,16 @@ void sweep_springs(const Model<Real>& model, const Vec3Array<Real>& position, Wo
     all.gravity = {model.mass * model.gx, model.mass * model.gy, model.mass * model.gz};
     all.keep = model.keep;
     all.c = model.force_share * dt2 / model.mass;
-    for_ranges(model, work, [sweep, all, scratch = work.sweep.data()](int index, std::size_t begin, std::size_t end) {
-        SweepArguments<Real> arguments = all;
-        arguments.begin = begin;
-        arguments.end = end;
-        arguments.scratch = scratch[index].data();
-        sweep(arguments);
-    });
+    for_ranges(
+        model, work,
+        [sweep, all, scratch = work.sweep.data()](int index, std::size_t begin, std::size_t end) {
+            SweepArguments<Real> arguments = all;
+            arguments.begin = begin;
+            arguments.end = end;
+            arguments.scratch = scratch[index].data();
+            sweep(arguments);
+        },
+        Effort::even);
 }
 
 #define CLOTHLAB_DEFINE(Real)                                                                                          \

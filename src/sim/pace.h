@@ -1,0 +1,40 @@
+// How much of a stage's points each thread gets. Threads that share out a stage evenly wait for the slowest of them: a
+// core may be slower than another by its kind, or since half of it does something else, and it begins a little later.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+namespace clothlab::sim {
+
+/// The pace of the calling thread of a pool as against that of the others, learned from who is done last with work that
+/// takes as long for each point. It costs no look at a clock, and changes no bit of a result.
+class Pace {
+public:
+    /// Where part `index` of `count` begins, of `total` points. Part 0 is the calling thread's.
+    std::size_t from(std::size_t index, std::size_t count, std::size_t total) const {
+        if (index == 0 || index >= count)
+            return index == 0 ? 0 : total;
+        const auto others = static_cast<double>(count - 1);
+        const auto first = static_cast<std::size_t>(static_cast<double>(total) * pace_ / (pace_ + others));
+        return first + (total - first) * (index - 1) / (count - 1);
+    }
+    /// To be told after each such stage whether the others were still at work when the calling thread was done.
+    void learn(bool others_were_last) {
+        in_a_row_ =
+            (in_a_row_ > 0) == others_were_last ? in_a_row_ + (others_were_last ? 1 : -1) : (others_were_last ? 1 : -1);
+        if (in_a_row_ >= enough || in_a_row_ <= -enough)
+            pace_ = std::clamp(others_were_last ? pace_ * more : pace_ / more, 0.5, 2.0);
+    }
+    double pace() const { return pace_; }
+
+private:
+    /// Near the right pace either is last by chance; what has not been so this often in a row changes nothing, since
+    /// points that go to another thread have to be fetched by it.
+    static constexpr int enough = 3;
+    static constexpr double more = 1.02;
+    double pace_ = 1;
+    int in_a_row_ = 0; ///< so many times the others were last; negative: so many times they were not
+};
+
+} // namespace clothlab::sim
