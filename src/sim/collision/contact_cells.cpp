@@ -66,7 +66,8 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
         return work.kernels->cell_pass(all);
     const auto pass = [&](int index) {
         const auto cut = [&](int i) {
-            const std::size_t at = count * static_cast<std::size_t>(i) / static_cast<std::size_t>(threads);
+            const std::size_t at =
+                work.pace.from(static_cast<std::size_t>(i), static_cast<std::size_t>(threads), count);
             return std::partition_point(all.buckets_begin, all.buckets_end,
                                         [&](const PointSpan& bucket) { return bucket.end <= at; });
         };
