@@ -50,14 +50,12 @@ bool can_sweep(const Model<Real>& model, const Workspace<Real>& work) {
            !minus_zero(model.mass * model.gz);
 }
 
+namespace {
+
+/// Of a sweep over all points.
 template <class Real>
-void sweep_springs(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work, SweepSink sink,
-                   Vec3Array<Real>& out) {
+SweepArguments<Real> sweep_arguments(const Model<Real>& model, const Vec3Array<Real>& position, Vec3Array<Real>& out) {
     const Real dt = static_cast<Real>(model.dt), dt2 = dt * dt;
-    std::size_t kinds = 0;
-    for (std::size_t kind = 0; kind < model.enabled.size(); ++kind)
-        kinds |= model.enabled[kind] ? std::size_t{1} << kind : 0;
-    const auto sweep = work.kernels->sweep[kinds][static_cast<std::size_t>(sink)];
     SweepArguments<Real> all;
     all.x = position.axes();
     all.out = out.axes();
@@ -69,9 +67,22 @@ void sweep_springs(const Model<Real>& model, const Vec3Array<Real>& position, Wo
     all.gravity = {model.mass * model.gx, model.mass * model.gy, model.mass * model.gz};
     all.keep = model.keep;
     all.c = model.force_share * dt2 / model.mass;
+    return all;
+}
+
+} // namespace
+
+template <class Real>
+void sweep_springs(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work, SweepSink sink,
+                   Vec3Array<Real>& out) {
+    std::size_t kinds = 0;
+    for (std::size_t kind = 0; kind < model.enabled.size(); ++kind)
+        kinds |= model.enabled[kind] ? std::size_t{1} << kind : 0;
+    const auto sweep = work.kernels->sweep[kinds][static_cast<std::size_t>(sink)];
     for_ranges(
         model, work,
-        [sweep, all, scratch = work.sweep.data()](int index, std::size_t begin, std::size_t end) {
+        [sweep, all = sweep_arguments(model, position, out), scratch = work.sweep.data()](int index, std::size_t begin,
+                                                                                          std::size_t end) {
             SweepArguments<Real> arguments = all;
             arguments.begin = begin;
             arguments.end = end;
