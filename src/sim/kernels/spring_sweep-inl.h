@@ -28,19 +28,30 @@
 HWY_BEFORE_NAMESPACE();
 namespace clothlab::sim::HWY_NAMESPACE {
 
-/// What becomes of the complete forces f along one axis on points at x that were at p.
+/// Where points at x that were at p get to along one axis without a force; nothing where the forces are what is wanted.
 template <SweepSink sink, class Real>
-HWY_INLINE Lane<Real> swept(const SweepArguments<Real>& a, Lane<Real> f, const Real* x, const Real* p) {
+HWY_INLINE Lane<Real> coasted(const SweepArguments<Real>& a, const Real* x, const Real* p) {
+    const Tag<Real> d;
     if constexpr (sink == SweepSink::force) {
-        return f;
+        return hn::Zero(d);
     } else {
-        const Tag<Real> d;
         const auto now = hn::LoadU(d, x);
         auto moved = hn::Sub(now, hn::LoadU(d, p));
         if constexpr (sink == SweepSink::verlet_damped)
             moved = hn::Mul(hn::Set(d, a.keep), moved);
-        return hn::Add(hn::Add(now, moved), hn::Mul(hn::Set(d, a.c), f));
+        auto sum = hn::Add(now, moved);
+        compute_here<Real>(sum);
+        return sum;
     }
+}
+
+/// What becomes of the complete forces f on points that get there without them.
+template <SweepSink sink, class Real>
+HWY_INLINE Lane<Real> swept(const SweepArguments<Real>& a, Lane<Real> there, Lane<Real> f) {
+    if constexpr (sink == SweepSink::force)
+        return f;
+    else
+        return hn::Add(there, hn::Mul(hn::Set(Tag<Real>(), a.c), f));
 }
 
 /// The same for a vector of which only some lanes are in the sweep's range: the others belong to another thread, or to
@@ -54,7 +65,7 @@ HWY_INLINE void sweep_some(const SweepArguments<Real>& a, Lane<Real> f, std::ptr
         x[l] = a.x[axis][i + l];
         p[l] = a.out[axis][i + l];
     }
-    hn::Store(swept<sink, Real>(a, f, x, p), Tag<Real>(), p);
+    hn::Store(swept<sink, Real>(a, coasted<sink, Real>(a, x, p), f), Tag<Real>(), p);
     for (std::ptrdiff_t l = from; l < to; ++l)
         a.out[axis][i + l] = p[l];
 }
@@ -268,6 +279,8 @@ struct SpringSweep {
         const auto begin = static_cast<std::ptrdiff_t>(a.begin), end = static_cast<std::ptrdiff_t>(a.end);
         if (place != Place::inside && (t + step <= begin || t >= end))
             return;
+        const bool whole = place == Place::inside || (t >= begin && t + step <= end);
+        const auto there = whole ? coasted<sink, Real>(a, a.x[axis] + t, a.out[axis] + t) : hn::Zero(Tag<Real>());
         auto f = ring.template load<Ring::sum, axis>(slots.done);
         if constexpr (pulls<3>)
             f = hn::Sub(f, ring.template load<Ring::upper_right, axis>(slots.below, -1));
@@ -277,8 +290,8 @@ struct SpringSweep {
             f = hn::Sub(f, ring.template load<Ring::upper_left, axis>(slots.below, 1));
         if constexpr (pulls<5>)
             f = hn::Sub(f, below);
-        if (place == Place::inside || (t >= begin && t + step <= end))
-            hn::StoreU(swept<sink, Real>(a, f, a.x[axis] + t, a.out[axis] + t), Tag<Real>(), a.out[axis] + t);
+        if (whole)
+            hn::StoreU(swept<sink, Real>(a, there, f), Tag<Real>(), a.out[axis] + t);
         else
             sweep_some<sink, axis, Real>(a, f, t);
     }

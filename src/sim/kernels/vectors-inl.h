@@ -147,7 +147,50 @@ HWY_INLINE std::uint32_t bits_of(LaneMask<Real> mask) {
 #endif
 }
 
+/// Has v computed where this stands. GCC would do it where v is used, and keep in memory until then, for want of
+/// registers, what it is made of.
+template <class Real>
+HWY_INLINE void compute_here(Lane<Real>& v) {
+#if HWY_ARCH_X86 && !HWY_COMPILER_MSVC
+    asm("" : "+v"(v.raw));
+#else
+    (void)v;
+#endif
+}
+
 /// Follows the column of each lane along the flat array, to tell which neighbours there are.
+#if HWY_TARGET == HWY_AVX3
+/// Where masks are bits they need no vector: of the columns' vectors and constants some would not fit into registers.
+template <class Real>
+class Columns {
+public:
+    Columns(std::size_t columns, std::size_t start)
+        : columns_(columns), step_(HWY_LANES(Real) % columns), next_row_((columns - start % columns) % columns) {
+        for (std::size_t bit = 0; bit < 64; bit += columns)
+            row_starts_ |= std::uint64_t{1} << bit;
+    }
+    HWY_INLINE LaneMask<Real> has_left() const { return none_of(starts()); }
+    HWY_INLINE LaneMask<Real> has_two_left() const {
+        return none_of(starts() | starts() << 1 | (next_row_ + 1 == columns_ ? 1 : 0));
+    }
+    HWY_INLINE LaneMask<Real> has_right() const { return none_of(starts() >> 1); }
+    HWY_INLINE void advance() {
+        next_row_ += next_row_ >= step_ ? 0 : columns_;
+        next_row_ -= step_;
+    }
+
+private:
+    /// The lanes in which a row begins, and those that would follow the last lane.
+    HWY_INLINE std::uint64_t starts() const { return row_starts_ << HWY_MIN(next_row_, std::size_t{63}); }
+    static HWY_INLINE LaneMask<Real> none_of(std::uint64_t lanes) {
+        LaneMask<Real> mask;
+        mask.raw = static_cast<decltype(mask.raw)>(~lanes);
+        return mask;
+    }
+    std::size_t columns_, step_, next_row_; ///< lanes from the first one to where a row begins
+    std::uint64_t row_starts_ = 0;          ///< as if the first lane began one
+};
+#else
 template <class Real>
 class Columns {
 public:
@@ -176,6 +219,7 @@ public:
 private:
     Lane<Real> column_, width_, last_, step_;
 };
+#endif
 
 } // namespace clothlab::sim::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
