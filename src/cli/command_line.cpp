@@ -136,11 +136,11 @@ void add_gallery(CLI::App& app, GalleryArguments& a, std::string& size, const Gu
 }
 
 void add_bench(CLI::App& app, BenchArguments& a, int& status) {
-    auto* bench = app.add_subcommand("bench", "Time the textbook's algorithm against every kernel");
+    auto* bench = app.add_subcommand("bench", "Time the course's simulator against every kernel");
     bench->add_option(
         "--filter", a.filter,
         "Only runs with a match of this regular expression in CASE/SIZE/PRECISION/KERNEL/THREADS, such as "
-        "falling/50/single/avx2/1, and the textbook's beside them");
+        "falling/50/single/avx2/1, and the course's simulator beside them");
     bench
         ->add_option("--sizes", a.sizes,
                      "Points along the cloth's sides (default: 25,50,100,256,512,1024, or 50,100 with --quick)")
