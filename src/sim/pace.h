@@ -21,9 +21,9 @@ public:
     }
     /// To be told after each such stage whether the others were still at work when the calling thread was done.
     void learn(bool others_were_last) {
-        in_a_row_ =
-            (in_a_row_ > 0) == others_were_last ? in_a_row_ + (others_were_last ? 1 : -1) : (others_were_last ? 1 : -1);
-        if (in_a_row_ >= enough || in_a_row_ <= -enough)
+        in_a_row_ = others_were_last == others_before_ ? std::min(in_a_row_ + 1, enough) : 1;
+        others_before_ = others_were_last;
+        if (in_a_row_ == enough)
             pace_ = std::clamp(others_were_last ? pace_ * more : pace_ / more, 0.5, 2.0);
     }
     double pace() const { return pace_; }
@@ -34,7 +34,8 @@ private:
     static constexpr int enough = 3;
     static constexpr double more = 1.02;
     double pace_ = 1;
-    int in_a_row_ = 0; ///< so many times the others were last; negative: so many times they were not
+    bool others_before_ = false; ///< what was told before
+    int in_a_row_ = 0;           ///< so many times, and not more than enough
 };
 
 } // namespace clothlab::sim
