@@ -24,11 +24,18 @@ public:
         in_a_row_ = others_were_last == others_before_ ? std::min(in_a_row_ + 1, enough) : 1;
         others_before_ = others_were_last;
         if (in_a_row_ == enough)
-            pace_ = std::clamp(others_were_last ? pace_ * more : pace_ / more, 0.5, 2.0);
+            pace_ = std::clamp(others_were_last ? pace_ * more : pace_ / more, slowest, fastest);
     }
     double pace() const { return pace_; }
+    /// How many points part `index` of `count` can come to have at the most, whatever is learned.
+    static std::size_t most(std::size_t index, std::size_t count, std::size_t total) {
+        const auto others = static_cast<double>(count - 1);
+        const double share = index == 0 ? fastest / (fastest + others) : 1 / (slowest + others);
+        return std::min(static_cast<std::size_t>(static_cast<double>(total) * share) + 2, total);
+    }
 
 private:
+    static constexpr double slowest = 0.5, fastest = 2;
     /// Near the right pace either is last by chance; what has not been so this often in a row changes nothing, since
     /// points that go to another thread have to be fetched by it.
     static constexpr int enough = 3;

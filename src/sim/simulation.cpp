@@ -1,5 +1,6 @@
 #include "sim/simulation.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstring>
@@ -65,6 +66,26 @@ public:
         if (watched_ && substep_ == 0)
             monitor_.end_of_frame(model_, state_, frame_);
         return counts_;
+    }
+
+    StepCounts advance(int steps) override {
+        StepCounts sum;
+        while (steps > 0) {
+            const int together = std::min(steps, steps_together());
+            if (together < least_slab_steps) {
+                sum += step();
+                --steps;
+                continue;
+            }
+            step_in_slabs(model_, state_, work_, together);
+            counts_ = {.force_evaluations = 1};
+            for (int i = 0; i < together; ++i) {
+                sum += counts_;
+                count_step();
+            }
+            steps -= together;
+        }
+        return sum;
     }
 
     StepTrace trace_step() const override {
@@ -204,6 +225,12 @@ public:
     }
 
 private:
+    /// How many steps can be taken in slabs now; those that are watched are not.
+    int steps_together() const {
+        if (!can_step_in_slabs(model_, work_))
+            return 0;
+        return watched_ ? std::min(model_.substeps - 1 - substep_, most_slab_steps) : most_slab_steps;
+    }
     static std::uint32_t velocities(const State<Real>& state) {
         return (state.velocity.size() != 0 ? 1u : 0u) + (state.previous_velocity.size() != 0 ? 1u : 0u);
     }
@@ -235,9 +262,7 @@ std::unique_ptr<Simulation> Simulation::create(const Description& description, c
 }
 
 void Simulation::step_frame() {
-    const std::uint64_t now = frame_;
-    while (frame_ == now)
-        step();
+    advance(description_.stepping.substeps - substep_);
 }
 
 void Simulation::count_step() {

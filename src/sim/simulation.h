@@ -33,6 +33,9 @@ public:
 
     /// Takes one step; a frame's last one completes the frame.
     virtual StepCounts step() = 0;
+    /// Takes so many steps, at least none; returns what they did in all. The same bits as so many calls of step(), in
+    /// less time where several threads take steps that are nothing but springs (sim/slabs.h).
+    virtual StepCounts advance(int steps) = 0;
     /// Looks into the step that step() would take now, without taking it: works on copies, so that nothing of the run
     /// changes, not even what it keeps to be faster. Takes memory for another run meanwhile, and, besides the step, as
     /// long as a few diagnoses: about 1 ms for 50 x 50 points.

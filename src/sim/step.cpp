@@ -14,6 +14,17 @@
 
 namespace clothlab::sim {
 
+StepCounts& StepCounts::operator+=(const StepCounts& other) {
+    self_contacts += other.self_contacts;
+    contacts += other.contacts;
+    sphere_contacts += other.sphere_contacts;
+    plane_contacts += other.plane_contacts;
+    shortened_springs += other.shortened_springs;
+    force_evaluations += other.force_evaluations;
+    solver_iterations += other.solver_iterations;
+    return *this;
+}
+
 template <class Real>
 State<Real> initial_state(const Description& description) {
     State<Real> state;

@@ -15,6 +15,8 @@ struct StepCounts {
     std::size_t shortened_springs = 0; ///< springs that the stretch limit shortened
     std::size_t force_evaluations = 0; ///< of all points' forces
     std::size_t solver_iterations = 0; ///< of the method's linear solver, or its sweeps over springs or points
+
+    StepCounts& operator+=(const StepCounts& other);
 };
 
 /// A state of masses at rest at the start positions, as the course's start has it.

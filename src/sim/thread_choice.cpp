@@ -7,8 +7,8 @@
 namespace clothlab::sim {
 namespace {
 
-/// Each candidate is timed over so many steps, in so many rounds, and its fastest block counts: what else the machine
-/// does only ever makes one slower.
+/// Each candidate is timed over so many steps at least, in so many rounds, and its fastest block counts: what else the
+/// machine does only ever makes one slower.
 constexpr int block = 8, rounds = 4;
 /// Contacts come and go. A run looks again after so many steps at the latest, and before, where steps have become
 /// another work: after `soon` steps, and later each time that it brings nothing. They have where they take so many
@@ -20,8 +20,8 @@ constexpr double another = 1.4;
 constexpr double hopeless = 3;
 /// More threads have to be worth their cores.
 constexpr double worth = 0.95;
-/// While several threads are used, so many steps at a time are timed; if they take this much longer than with one
-/// thread, something else needs the machine, and one thread goes on alone until the next measurement.
+/// While several threads are used, so many steps at least at a time are timed; if they take this much longer than with
+/// one thread, something else needs the machine, and one thread goes on alone until the next measurement.
 constexpr int watched = 32;
 constexpr double patience = 1.5;
 
@@ -44,28 +44,28 @@ void ThreadChoice::restart() {
     std::fill(best_.begin(), best_.end(), std::numeric_limits<double>::infinity());
 }
 
-void ThreadChoice::end_step() {
+void ThreadChoice::end_step(int steps) {
     if (candidates_.size() == 1)
         return;
     seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
+    step_ += steps;
     if (!measuring_) {
-        if (++since_ >= steps_between)
+        since_ += steps;
+        if (since_ >= steps_between)
             return restart();
-        if (++step_ < watched)
+        if (step_ < watched)
             return;
-        step_ = 0;
-        const double now = std::exchange(seconds_, 0) / watched, then = best_[now_] / block;
+        const double now = std::exchange(seconds_, 0) / std::exchange(step_, 0), then = best_[now_];
         round_ = now > another * then || now * another < then ? round_ + 1 : 0;
-        if (now_ != 0 && now > patience * best_[0] / block)
+        if (now_ != 0 && now > patience * best_[0])
             now_ = 0;
         else if (since_ >= patient_for_ && round_ >= without_break)
             restart();
         return;
     }
-    if (++step_ < block)
+    if (step_ < block)
         return;
-    step_ = 0;
-    const double took = std::exchange(seconds_, 0);
+    const double took = std::exchange(seconds_, 0) / std::exchange(step_, 0);
     if (took > hopeless * best_[0])
         round_ = rounds - 1; // the last one
     best_[now_] = std::min(best_[now_], took);

@@ -15,19 +15,19 @@ public:
 
     /// Threads for the next step.
     int threads() const { return candidates_[now_]; }
-    /// To be called before and after each step.
+    /// To be called before and after each step, or several that are taken at once.
     void begin_step() {
         if (candidates_.size() > 1)
             start_ = Clock::now();
     }
-    void end_step();
+    void end_step(int steps = 1);
     /// Measures again: the scene has changed.
     void restart();
 
 private:
     using Clock = std::chrono::steady_clock;
     std::vector<int> candidates_; ///< 1, 2, 4, ..., most
-    std::vector<double> best_;    ///< s, fastest block of steps of each
+    std::vector<double> best_;    ///< s, a step of the fastest block of each
     std::size_t now_ = 0;
     bool measuring_ = false;
     int step_ = 0, round_ = 0;

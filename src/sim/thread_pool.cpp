@@ -8,14 +8,11 @@ namespace clothlab::sim {
 namespace {
 
 constexpr std::uint64_t count_bits = 16, count_mask = (1u << count_bits) - 1, quit = count_mask;
-/// Some fifty microseconds: as long as the stages that one thread does alone take in a small cloth. A sleeper takes
-/// about as long to wake.
-constexpr int spins = 4000;
 
 /// Waits until the value is another than `old`; returns it.
 template <class T>
 T await_change(const std::atomic<T>& value, T old) {
-    for (int i = 0; i < spins; ++i) {
+    for (int i = 0; i < spins_until_asleep; ++i) {
         if (const T now = value.load(std::memory_order_acquire); now != old)
             return now;
         hwy::Pause();

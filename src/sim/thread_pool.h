@@ -14,6 +14,10 @@
 
 namespace clothlab::sim {
 
+/// Who waits for another thread looks so many times, pausing: some fifty microseconds, as long as the stages that one
+/// thread does alone take in a small cloth. A sleeper takes about as long to wake.
+inline constexpr int spins_until_asleep = 4000;
+
 class ThreadPool {
 public:
     /// A pool of so many threads, the caller's own among them.

@@ -26,6 +26,7 @@ void prepare(const Model<Real>& model, Workspace<Real>& work) {
         work.pin_previous.resize(model.pins.size());
         work.proximity.resize(threads);
         work.counts.resize(2 * threads);
+        make_slabs(model, work);
         if (model.rules.limit == LimitRule::cs184)
             make_bands(model, work.bands);
     }
@@ -46,12 +47,13 @@ void prepare(const Model<Real>& model, Workspace<Real>& work) {
 template <class Real>
 std::size_t memory_bytes(const Workspace<Real>& work) {
     const SelfCollisionWork<Real>& s = work.self_collision;
-    std::size_t bytes =
-        work.solver_bytes + work.force.bytes() + work.before_stages.bytes() + bytes_of(work.pin_previous) +
-        bytes_of(work.proximity) + bytes_of(work.counts) + s.cell.bytes() + bytes_of(s.lists.first) +
-        bytes_of(s.lists.next) + s.anchor.bytes() + bytes_of(s.far_pairs) + bytes_of(s.pairs) + bytes_of(s.cursor) +
-        bytes_of(s.active) + bytes_of(s.partners) + bytes_of(s.key) + bytes_of(s.order) + bytes_of(s.cell_end) +
-        bytes_of(s.sorted) + bytes_of(s.run_end) + bytes_of(s.buckets) + s.tree.bytes() + work.bands.bytes();
+    std::size_t bytes = work.solver_bytes + work.force.bytes() + work.before_stages.bytes() +
+                        bytes_of(work.pin_previous) + bytes_of(work.proximity) + bytes_of(work.counts) +
+                        s.cell.bytes() + bytes_of(s.lists.first) + bytes_of(s.lists.next) + s.anchor.bytes() +
+                        bytes_of(s.far_pairs) + bytes_of(s.pairs) + bytes_of(s.cursor) + bytes_of(s.active) +
+                        bytes_of(s.partners) + bytes_of(s.key) + bytes_of(s.order) + bytes_of(s.cell_end) +
+                        bytes_of(s.sorted) + bytes_of(s.run_end) + bytes_of(s.buckets) + s.tree.bytes() +
+                        work.bands.bytes() + work.slabs.bytes();
     for (const Vec3Array<Real>& array : work.arrays)
         bytes += array.bytes();
     for (const AlignedVector<Real>& scratch : work.sweep)

@@ -24,8 +24,7 @@ double turn(const Timed& run, const Moments& moments, std::uint64_t frames, doub
         simulation->load_state(saved[static_cast<std::size_t>(run.description.stepping.precision)]);
         simulation->step();
         const Clock::time_point start = Clock::now();
-        for (int i = 0; i < steps; ++i)
-            simulation->step();
+        simulation->advance(steps);
         seconds += std::chrono::duration<double>(Clock::now() - start).count();
     }
     return seconds / (steps * count * sim::step_length(run.description));

@@ -75,8 +75,9 @@ int steps_of_round(std::size_t points, bool quick) {
 /// Takes steps until caches, branch predictors and clock have seen that there is work. Returns the seconds of one.
 double warmed_up(Contestant& contestant) {
     const Clock::time_point start = Clock::now();
-    for (int steps = 1;; ++steps) {
-        contestant.step();
+    for (int steps = 0, next = 1;; next = std::min(2 * next, 32)) {
+        contestant.advance(next);
+        steps += next;
         if (const double seconds = seconds_since(start); seconds > warm_up)
             return seconds / steps;
     }
@@ -92,15 +93,9 @@ void take_turn(Run& run, const Moment& moment, int steps, double points) {
     else if (!contestant.remembers())
         steps = static_cast<int>(std::clamp(slot / warm_step, static_cast<double>(least_steps), 1.0 * steps));
     contestant.start_from(moment);
-    sim::StepCounts sum;
     contestant.time_stages();
     const Clock::time_point start = Clock::now();
-    for (int i = 0; i < steps; ++i) {
-        const sim::StepCounts counts = contestant.step();
-        sum.self_contacts += counts.self_contacts;
-        sum.contacts += counts.contacts;
-        sum.shortened_springs += counts.shortened_springs;
-    }
+    const sim::StepCounts sum = contestant.advance(steps);
     run.step.push_back(seconds_since(start) / steps);
     const auto stage = [&](sim::Stage s) { return contestant.stage_seconds()[static_cast<std::size_t>(s)] / steps; };
     run.forces_and_verlet.push_back(stage(sim::Stage::forces) + stage(sim::Stage::integrate));

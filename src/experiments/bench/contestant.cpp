@@ -33,7 +33,7 @@ public:
         simulation_->change(simulation_->description()); // forgets what its stages keep from step to step
         simulation_->load_state(moment.saved[index(simulation_->description().stepping.precision)]);
     }
-    sim::StepCounts step() override { return simulation_->step(); }
+    sim::StepCounts advance(int steps) override { return simulation_->advance(steps); }
     void time_stages() override { simulation_->time_stages(true); }
     const sim::StageSeconds& stage_seconds() const override { return simulation_->stage_seconds(); }
     std::size_t memory_bytes() const override { return simulation_->memory_bytes(); }
@@ -47,7 +47,12 @@ class TextbookContestant final : public Contestant {
 public:
     TextbookContestant(const sim::Description& description, CellMap cells) : textbook_(description, cells) {}
     void start_from(const Moment& moment) override { textbook_.place(moment.position, moment.last); }
-    sim::StepCounts step() override { return textbook_.step(); }
+    sim::StepCounts advance(int steps) override {
+        sim::StepCounts sum;
+        for (int i = 0; i < steps; ++i)
+            sum += textbook_.step();
+        return sum;
+    }
     void time_stages() override { textbook_.time_stages(true); }
     const sim::StageSeconds& stage_seconds() const override { return textbook_.stage_seconds(); }
     std::size_t memory_bytes() const override { return textbook_.memory_bytes(); }
@@ -64,8 +69,7 @@ Moment advance(const sim::Description& description, int steps, bool single_preci
     const sim::Execution fastest{.threads = cores};
     Moment moment;
     const auto run = simulate(description, sim::Precision::double_precision, fastest);
-    for (int i = 1; i < steps; ++i)
-        run->step();
+    run->advance(steps - 1);
     moment.last =
         positions(*run); // Verlet's previous position is that before the step, whatever the step's contacts do
     run->step();
@@ -73,8 +77,7 @@ Moment advance(const sim::Description& description, int steps, bool single_preci
     moment.saved[index(sim::Precision::double_precision)] = run->save_state();
     if (single_precision) {
         const auto single = simulate(description, sim::Precision::single_precision, fastest);
-        while (single->steps() < run->steps())
-            single->step();
+        single->advance(steps);
         moment.saved[index(sim::Precision::single_precision)] = single->save_state();
     }
     return moment;

@@ -28,7 +28,8 @@ public:
     virtual ~Contestant() = default;
     /// Goes on from a moment, with nothing remembered from steps that it took before.
     virtual void start_from(const Moment& moment) = 0;
-    virtual sim::StepCounts step() = 0;
+    /// Takes so many steps, as a run without a picture does; returns what they did in all.
+    virtual sim::StepCounts advance(int steps) = 0;
     virtual void time_stages() = 0; ///< from now on; the sums start at zero
     virtual const sim::StageSeconds& stage_seconds() const = 0;
     virtual std::size_t memory_bytes() const = 0;

@@ -50,16 +50,14 @@ bool can_sweep(const Model<Real>& model, const Workspace<Real>& work) {
            !minus_zero(model.mass * model.gz);
 }
 
-namespace {
-
-/// Of a sweep over all points.
 template <class Real>
-SweepArguments<Real> sweep_arguments(const Model<Real>& model, const Vec3Array<Real>& position, Vec3Array<Real>& out) {
+SweepKernel<Real> sweep_kernel(const Model<Real>& model, const Workspace<Real>& work, SweepSink sink) {
+    std::size_t kinds = 0;
+    for (std::size_t kind = 0; kind < model.enabled.size(); ++kind)
+        kinds |= model.enabled[kind] ? std::size_t{1} << kind : 0;
     const Real dt = static_cast<Real>(model.dt), dt2 = dt * dt;
-    SweepArguments<Real> all;
-    all.x = position.axes();
-    all.out = out.axes();
-    all.points = position.size();
+    SweepArguments<Real> all{};
+    all.points = model.grid->points();
     all.columns = static_cast<std::size_t>(model.grid->columns);
     all.rest = rest_lengths(*model.grid);
     all.k = model.k[static_cast<std::size_t>(SpringKind::structural)];
@@ -67,27 +65,23 @@ SweepArguments<Real> sweep_arguments(const Model<Real>& model, const Vec3Array<R
     all.gravity = {model.mass * model.gx, model.mass * model.gy, model.mass * model.gz};
     all.keep = model.keep;
     all.c = model.force_share * dt2 / model.mass;
-    return all;
+    return {work.kernels->sweep[kinds][static_cast<std::size_t>(sink)], all};
 }
-
-} // namespace
 
 template <class Real>
 void sweep_springs(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work, SweepSink sink,
                    Vec3Array<Real>& out) {
-    std::size_t kinds = 0;
-    for (std::size_t kind = 0; kind < model.enabled.size(); ++kind)
-        kinds |= model.enabled[kind] ? std::size_t{1} << kind : 0;
-    const auto sweep = work.kernels->sweep[kinds][static_cast<std::size_t>(sink)];
+    SweepKernel<Real> kernel = sweep_kernel(model, work, sink);
+    kernel.arguments.x = position.axes();
+    kernel.arguments.out = out.axes();
     for_ranges(
         model, work,
-        [sweep, all = sweep_arguments(model, position, out), scratch = work.sweep.data()](int index, std::size_t begin,
-                                                                                          std::size_t end) {
-            SweepArguments<Real> arguments = all;
+        [kernel, scratch = work.sweep.data()](int index, std::size_t begin, std::size_t end) {
+            SweepArguments<Real> arguments = kernel.arguments;
             arguments.begin = begin;
             arguments.end = end;
             arguments.scratch = scratch[index].data();
-            sweep(arguments);
+            kernel.sweep(arguments);
         },
         Effort::even);
 }
@@ -96,6 +90,7 @@ void sweep_springs(const Model<Real>& model, const Vec3Array<Real>& position, Wo
     template void add_spring_forces<Real>(const Model<Real>&, const Vec3Array<Real>&, Vec3Array<Real>&);               \
     template double spring_energy<Real>(const Model<Real>&, const Vec3Array<Real>&);                                   \
     template bool can_sweep<Real>(const Model<Real>&, const Workspace<Real>&);                                         \
+    template SweepKernel<Real> sweep_kernel<Real>(const Model<Real>&, const Workspace<Real>&, SweepSink);              \
     template void sweep_springs<Real>(const Model<Real>&, const Vec3Array<Real>&, Workspace<Real>&, SweepSink,         \
                                       Vec3Array<Real>&);
 CLOTHLAB_DEFINE(float)

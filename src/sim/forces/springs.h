@@ -20,6 +20,21 @@ double spring_energy(const Model<Real>& model, const Vec3Array<Real>& position);
 template <class Real>
 bool can_sweep(const Model<Real>& model, const Workspace<Real>& work);
 
+/// A kernel for the springs of a model, and what it is called with but for points, a range of them and scratch memory.
+template <class Real>
+struct SweepKernel {
+    void (*sweep)(const SweepArguments<Real>&);
+    SweepArguments<Real> arguments;
+};
+template <class Real>
+SweepKernel<Real> sweep_kernel(const Model<Real>& model, const Workspace<Real>& work, SweepSink sink);
+
+/// What moves the points of a model by course Verlet in a sweep.
+template <class Real>
+SweepSink verlet_sink(const Model<Real>& model) {
+    return model.keep == 1 ? SweepSink::verlet : SweepSink::verlet_damped;
+}
+
 /// Gravity and springs by the kernels, to the same bits: writes the forces to `out`, or, with one of the Verlet sinks,
 /// moves the points of `position`, whose previous positions are in `out`, and writes where they go to `out`, pinned or
 /// not.
@@ -31,6 +46,7 @@ void sweep_springs(const Model<Real>& model, const Vec3Array<Real>& position, Wo
     extern template void add_spring_forces<Real>(const Model<Real>&, const Vec3Array<Real>&, Vec3Array<Real>&);        \
     extern template double spring_energy<Real>(const Model<Real>&, const Vec3Array<Real>&);                            \
     extern template bool can_sweep<Real>(const Model<Real>&, const Workspace<Real>&);                                  \
+    extern template SweepKernel<Real> sweep_kernel<Real>(const Model<Real>&, const Workspace<Real>&, SweepSink);       \
     extern template void sweep_springs<Real>(const Model<Real>&, const Vec3Array<Real>&, Workspace<Real>&, SweepSink,  \
                                              Vec3Array<Real>&);
 CLOTHLAB_DECLARE(float)

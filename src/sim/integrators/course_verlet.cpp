@@ -58,7 +58,7 @@ void sweep(const Model<Real>& model, State<Real>& state, Workspace<Real>& work) 
         const std::uint32_t i = model.pins[k];
         work.pin_previous[k] = {p.x[i], p.y[i], p.z[i]};
     }
-    sweep_springs(model, x, work, model.keep == 1 ? SweepSink::verlet : SweepSink::verlet_damped, p);
+    sweep_springs(model, x, work, verlet_sink(model), p);
     std::swap(x, p);
     for (std::size_t k = 0; k < model.pins.size(); ++k) {
         const std::uint32_t i = model.pins[k];
