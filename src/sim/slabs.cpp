@@ -42,7 +42,7 @@ Shares slab_shares(const Model<Real>& model, const Workspace<Real>& work) {
     Shares all = shares(model, work);
     const auto too_short = [&] {
         for (std::size_t i = 0; i < all.count; ++i)
-            if (all.from(i + 1) < all.from(i) + halo_of(model))
+            if (all.from(i + 1) < all.from(i) + sweep_least(static_cast<std::size_t>(model.grid->columns)))
                 return true;
         return false;
     };
@@ -102,9 +102,12 @@ public:
         }
         slabs_.clocks[index_].waited = 0;
         for (int step = 0; step < all_.steps; ++step) {
+            message_ = slabs_.sent + static_cast<std::uint64_t>(step);
             if (step > 0)
-                exchange(slabs_.sent + static_cast<std::uint64_t>(step));
-            move();
+                send();
+            if (step > 0 && has_before())
+                receive_from_before();
+            move(step > 0 && has_behind());
         }
         // The others have long copied what they need: a thread takes its last step after those beside it took one.
         for (std::size_t a = 0; a < 3; ++a) {
@@ -117,8 +120,8 @@ private:
     bool has_before() const { return index_ > 0; }
     bool has_behind() const { return index_ + 1 < all_.shares.count; }
 
-    /// One step of the points in the range.
-    void move() {
+    /// One step of the points in the range. Those behind it are asked for when it comes to them.
+    void move(bool receive) {
         SweepArguments<Real> arguments = all_.kernel.arguments;
         for (std::size_t a = 0; a < 3; ++a) {
             arguments.x[a] = now_[a];
@@ -127,6 +130,10 @@ private:
         arguments.begin = begin_;
         arguments.end = end_;
         arguments.scratch = all_.work->sweep[index_].data();
+        if (receive) {
+            arguments.before_end = [](void* thread) { static_cast<SlabThread*>(thread)->receive_from_behind(); };
+            arguments.context = this;
+        }
         all_.kernel.sweep(arguments);
         std::swap(now_, before_);
         for (auto pin = pins_begin_; pin != pins_end_; ++pin)
@@ -136,41 +143,35 @@ private:
             }
     }
 
-    /// Where a thread's message to a side lies, by its number.
+    /// Where a thread's message to a side lies.
     enum Side : std::size_t { to_before, to_behind };
-    Real* message(std::size_t thread, Side side, std::uint64_t number, std::size_t axis) const {
-        return slabs_.of[thread].messages.data() + (6 * side + 3 * (number % 2) + axis) * whole_lines(halo_);
+    Real* message(std::size_t thread, Side side, std::size_t axis) const {
+        return slabs_.of[thread].messages.data() + (6 * side + 3 * (message_ % 2) + axis) * whole_lines(halo_);
     }
 
-    /// Message `number` to those beside this thread, and theirs. A message is written over when its reader has sent the
-    /// next one, since that is what this thread has waited for meanwhile.
-    void exchange(std::uint64_t number) {
+    void send() {
         for (std::size_t a = 0; a < 3; ++a) {
             if (has_before())
-                std::copy_n(now_[a] + begin_, halo_, message(index_, to_before, number, a));
+                std::copy_n(now_[a] + begin_, halo_, message(index_, to_before, a));
             if (has_behind())
-                std::copy_n(now_[a] + end_ - halo_, halo_, message(index_, to_behind, number, a));
+                std::copy_n(now_[a] + end_ - halo_, halo_, message(index_, to_behind, a));
         }
-        SlabClock& clock = slabs_.clocks[index_];
-        clock.sent.store(number, std::memory_order_release);
-        if (has_before()) {
-            clock.waited += await(slabs_.clocks[index_ - 1].sent, number) ? 1 : 0;
-            for (std::size_t a = 0; a < 3; ++a)
-                std::copy_n(message(index_ - 1, to_behind, number, a), halo_, now_[a] + begin_ - halo_);
-        }
-        if (has_behind()) {
-            const bool waited = await(slabs_.clocks[index_ + 1].sent, number);
-            for (std::size_t a = 0; a < 3; ++a)
-                std::copy_n(message(index_ + 1, to_before, number, a), halo_, now_[a] + end_);
-            if (index_ == 0)
-                clock.waited += waited ? 1 : 0;
-        }
+        slabs_.clocks[index_].sent.store(message_, std::memory_order_release);
+    }
+    void receive_from_before() { receive(index_ - 1, to_behind, begin_ - halo_, true); }
+    void receive_from_behind() { receive(index_ + 1, to_before, end_, index_ == 0); }
+    void receive(std::size_t from, Side side, std::size_t first, bool counts) {
+        const bool waited = await(slabs_.clocks[from].sent, message_);
+        slabs_.clocks[index_].waited += waited && counts ? 1 : 0;
+        for (std::size_t a = 0; a < 3; ++a)
+            std::copy_n(message(from, side, a), halo_, now_[a] + first);
     }
 
     SlabWork<Real>& all_;
     std::size_t index_, begin_, end_, halo_;
     Slabs<Real>& slabs_;
     Slab<Real>& slab_;
+    std::uint64_t message_ = 0;   ///< number of the last one sent and of those that are received now
     Axes<Real> now_{}, before_{}; ///< positions now and one step earlier
     std::vector<std::uint32_t>::const_iterator pins_begin_, pins_end_;
 };
@@ -192,10 +193,13 @@ void make_slabs(const Model<Real>& model, Workspace<Real>& work) {
                               model.rules.self_collision == SelfCollisionRule::none && model.colliders.empty() &&
                               model.rules.limit == LimitRule::off && can_sweep(model, work);
     Slabs<Real>& slabs = work.slabs;
-    slabs = {};
-    if (!only_springs || !work.pool || points > most_points)
+    if (!only_springs || !work.pool || points > most_points) {
+        slabs = {};
         return;
+    }
     const auto threads = static_cast<std::size_t>(work.pool->threads());
+    if (slabs.of.size() == threads) // with the model before; its threads have them in their caches
+        return;
     slabs.of.resize(threads);
     slabs.clocks = std::vector<SlabClock>(threads);
     for (std::size_t i = 0; i < threads; ++i) {

@@ -79,7 +79,8 @@ TEST_CASE("A pool says whether the others were still at work when the calling th
     REQUIRE_FALSE(pool.run(1, [](int) {}));
 }
 
-TEST_CASE("Parts cover all points whatever the pace, and none has less than half of an even share") {
+TEST_CASE(
+    "Parts cover all points whatever the pace, and none has less than half of an even share or more than it may") {
     Pace pace;
     for (const bool slower : {true, false}) {
         for (int i = 0; i < 200; ++i) {
@@ -87,8 +88,11 @@ TEST_CASE("Parts cover all points whatever the pace, and none has less than half
             for (const std::size_t count : {2u, 3u, 8u}) {
                 REQUIRE(pace.from(0, count, 1000) == 0);
                 REQUIRE(pace.from(count, count, 1000) == 1000);
-                for (std::size_t part = 0; part < count; ++part)
-                    REQUIRE(2 * count * (pace.from(part + 1, count, 1000) - pace.from(part, count, 1000)) >= 1000);
+                for (std::size_t part = 0; part < count; ++part) {
+                    const std::size_t points = pace.from(part + 1, count, 1000) - pace.from(part, count, 1000);
+                    REQUIRE(2 * count * points >= 1000);
+                    REQUIRE(points <= Pace::most(part, count, 1000));
+                }
             }
         }
         REQUIRE(pace.pace() == (slower ? 2.0 : 0.5));
@@ -144,6 +148,21 @@ TEST_CASE("A run that may choose tries one thread, two, four and all, and keeps 
             choice.begin_step();
             choice.end_step();
         }
+    }
+}
+
+TEST_CASE("Steps that are taken many at once are compared with single ones by the time of each") {
+    ThreadChoice choice(2, true);
+    const auto go_on = [&] { // two threads take ten steps in the time in which one takes two
+        choice.begin_step();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        choice.end_step(choice.threads() == 1 ? 2 : 10);
+    };
+    for (int i = 0; i < 4 * (4 + 1); ++i)
+        go_on();
+    for (int i = 0; i < 100; ++i) {
+        REQUIRE(choice.threads() == 2);
+        go_on();
     }
 }
 

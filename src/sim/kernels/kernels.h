@@ -59,9 +59,17 @@ struct SweepArguments {
     std::array<Real, 3> gravity; ///< m g, N; no component may be -0
     Real keep, c;
     Real* scratch; ///< sweep_scratch(columns) values
+    /// Unless null, called with `context` before positions from `end` on are read. The range is sweep_least(columns)
+    /// points long at least then.
+    void (*before_end)(void* context);
+    void* context;
 };
 
 inline constexpr std::size_t sweep_grain = 64;
+/// Of a range whose end is waited for: no point beyond it is read before so many points were gone through.
+constexpr std::size_t sweep_least(std::size_t columns) {
+    return 2 * columns + sweep_grain;
+}
 
 /// Of a sweep's ring of unfinished forces: slots, two rows and three vectors at least, a power of two; the room before
 /// and behind them, a vector; how far one of its arrays is from the next. That is an odd number of the widest vectors,

@@ -149,6 +149,10 @@ struct SpringSweep {
         if (begin == 0)
             i = sweep.template go_on<Place::border>(i, std::min(2 * columns, springs_end), copy_head(a));
         i = sweep.template go_on<Place::border>(i, std::min(begin + late, springs_end), a.x);
+        if (a.before_end) {
+            i = sweep.template go_on<Place::inside>(i, end - step + 1, a.x);
+            a.before_end(a.context);
+        }
         i = sweep.template go_on<Place::inside>(i, springs_end - step + 1, a.x);
         i = sweep.template go_on<Place::border>(i, springs_end, a.x);
         sweep.template go_on<Place::behind>(i, end + late, a.x);

@@ -23,6 +23,12 @@ sim::Description busy(int points) {
     return d;
 }
 
+double bytes_per_point(sim::Description d, int threads = 1) {
+    d.cloth.num_width_points = d.cloth.num_height_points = 200;
+    const auto simulation = sim::Simulation::create(d, exactly(sim::resolve(sim::InstructionSet::automatic), threads));
+    return static_cast<double>(simulation->memory_bytes()) / 40000;
+}
+
 } // namespace
 
 TEST_CASE("The counter of allocations counts") {
@@ -55,12 +61,25 @@ TEST_CASE("A step allocates no memory, with contacts of all kinds, in wind, and 
             }
 }
 
+TEST_CASE("Many steps at once allocate no memory either, also after a change of the springs", "[threads]") {
+    sim::Description description;
+    description.cloth.num_width_points = description.cloth.num_height_points = 40;
+    description.rules.limit = sim::LimitRule::off;
+    description.rules.self_collision = sim::SelfCollisionRule::none;
+    const auto simulation =
+        sim::Simulation::create(description, exactly(sim::resolve(sim::InstructionSet::automatic), 3));
+    const std::size_t held = simulation->memory_bytes();
+    for (const double ks : {5000.0, 2000.0}) {
+        description.cloth.ks = ks;
+        simulation->change(description);
+        const std::size_t before = allocations();
+        simulation->advance(attempts(1000));
+        REQUIRE(allocations() == before);
+        REQUIRE(simulation->memory_bytes() == held);
+    }
+}
+
 TEST_CASE("What a scene does not use costs no memory") {
-    const auto bytes_per_point = [](sim::Description d) {
-        d.cloth.num_width_points = d.cloth.num_height_points = 200;
-        const auto simulation = sim::Simulation::create(d, exactly(sim::resolve(sim::InstructionSet::automatic), 1));
-        return static_cast<double>(simulation->memory_bytes()) / 40000;
-    };
     if (sim::resolve(sim::InstructionSet::automatic) == sim::InstructionSet::scalar)
         SKIP("no vectors here");
     sim::Description bare;
@@ -79,4 +98,15 @@ TEST_CASE("What a scene does not use costs no memory") {
     exact.stepping.precision = sim::Precision::double_precision;
     // 2048 x 2048 within 1 GiB: positions for the picture come on top.
     CHECK(bytes_per_point(exact) * 2048 * 2048 < 0.85 * (1 << 30));
+}
+
+TEST_CASE("Threads that take many steps at once hold two thirds of the points each besides", "[threads]") {
+    sim::Description springs;
+    springs.rules.self_collision = sim::SelfCollisionRule::none;
+    springs.rules.limit = sim::LimitRule::off;
+    const double more = bytes_per_point(springs, 2) - bytes_per_point(springs);
+    if (sim::resolve(sim::InstructionSet::automatic) == sim::InstructionSet::scalar)
+        SKIP("no vectors here");
+    CHECK(more > 2 * 2.0 / 3 * 24);
+    CHECK(more < 40); // with two rows on either side, and scratch rows for the second thread
 }

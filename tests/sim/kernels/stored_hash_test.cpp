@@ -27,7 +27,7 @@ sim::Description cloth(int columns, int rows) {
     return d;
 }
 
-constexpr std::size_t count = 5;
+constexpr std::size_t count = 6;
 const Stored stored[count] = {
     {"hangs from two corners, its limit active", 0xbc3584fece083483, 0x3847f84419090270,
      [] {
@@ -67,6 +67,15 @@ const Stored stored[count] = {
          d.cloth.damping = 0;
          d.rules.limit = sim::LimitRule::off;
          d.cloth.pinned = {{0, 0}, {32, 19}};
+         return d;
+     }},
+    {"nothing but springs, many steps at once where there are threads", 0xb5d1a2a5cfa1bc8f, 0x0fe84903bf9a468d,
+     [] {
+         sim::Description d = cloth(50, 50);
+         d.cloth.ks = 500;
+         d.cloth.pinned = {{0, 0}, {49, 0}};
+         d.rules.limit = sim::LimitRule::off;
+         d.rules.self_collision = sim::SelfCollisionRule::none;
          return d;
      }},
 };
