@@ -235,7 +235,7 @@ void warn_of_load(const experiments::MachinePeak& machine) {
         std::cerr << "clothlab bench: " << what << ": something else ran on this machine, or threads share its cores\n";
     };
     if (machine.steadiness < 0.85)
-        say(text("before and after, the peaks differ by %.0f %%", 100 * (1 - machine.steadiness)));
+        say(text("from pass to pass, the peaks differ by %.0f %%", 100 * (1 - machine.steadiness)));
     for (const experiments::ThreadPeak& peak : machine.by_threads)
         if (const double times = peak.single_gflops / machine.with(1).single_gflops; times < 0.75 * peak.threads)
             say(text("%d threads reached only %.1f times the peak of one", peak.threads, times));

@@ -107,10 +107,16 @@ void take_turn(Run& run, const Moment& moment, int steps, double points) {
     run.row.shortened_springs = static_cast<double>(sum.shortened_springs) / steps / points;
 }
 
-/// Rounds until the time is used up, an odd number of them.
+/// All cases have their turn in each pass, so that those that are compared with each other were timed at the same
+/// times: what else a machine does can go on for longer than a case takes.
+int passes(bool quick) {
+    return quick ? 1 : 3;
+}
+
+/// The rounds of a pass: until the time is used up, an odd number of them.
 void take_rounds(std::vector<Run>& runs, const Moment& moment, int steps, double points, bool quick) {
-    const double budget = quick ? 0.5 : 3; // s
-    const int least = 3, most = quick ? 5 : 15;
+    const double budget = quick ? 0.5 : 1; // s
+    const int least = quick ? 3 : 1, most = 5;
     const Clock::time_point start = Clock::now();
     for (int round = 0; round < most && (round < least || round % 2 == 0 || seconds_since(start) < budget); ++round)
         for (Run& run : runs)
@@ -175,34 +181,50 @@ double points_per_cell(const sim::Description& description, const Moment& moment
     return textbook.points_per_cell();
 }
 
-BenchGroup measure(const BenchCase& which, std::vector<Run>& runs, bool quick) {
-    const sim::Description& description = which.description;
+/// A case of which something is wanted.
+struct WantedCase {
+    const BenchCase* which;
+    std::vector<Run> runs;
     BenchGroup group;
-    group.name = which.name;
-    group.n = description.cloth.num_width_points;
-    group.frames = which.frames;
-    group.steps_per_second = 1 / sim::step_length(description);
-    const bool single = std::any_of(
-        runs.begin(), runs.end(), [](const Run& run) { return run.row.precision == sim::Precision::single_precision; });
-    const Moment moment = advance(description, std::max(which.frames * description.stepping.substeps, 1), single);
-    group.points = moment.position.size();
-    group.springs = Textbook(description).springs();
-    group.points_per_cell = points_per_cell(description, moment);
+    Moment moment; ///< empty before the first pass
+};
 
-    create_contestants(runs, description);
-    const auto points = static_cast<double>(group.points);
-    take_rounds(runs, moment, steps_of_round(group.points, quick), points, quick);
-    for (Run& run : runs) {
+void begin(WantedCase& wanted) {
+    const sim::Description& description = wanted.which->description;
+    BenchGroup& group = wanted.group;
+    group.name = wanted.which->name;
+    group.n = description.cloth.num_width_points;
+    group.frames = wanted.which->frames;
+    group.steps_per_second = 1 / sim::step_length(description);
+    const bool single = std::any_of(wanted.runs.begin(), wanted.runs.end(), [](const Run& run) {
+        return run.row.precision == sim::Precision::single_precision;
+    });
+    wanted.moment = advance(description, std::max(group.frames * description.stepping.substeps, 1), single);
+    group.points = wanted.moment.position.size();
+    group.springs = Textbook(description).springs();
+    group.points_per_cell = points_per_cell(description, wanted.moment);
+}
+
+void take_pass(WantedCase& wanted, bool quick) {
+    create_contestants(wanted.runs, wanted.which->description);
+    const auto points = static_cast<double>(wanted.group.points);
+    take_rounds(wanted.runs, wanted.moment, steps_of_round(wanted.group.points, quick), points, quick);
+    for (Run& run : wanted.runs) {
+        run.row.bytes_per_point = static_cast<double>(run.contestant->memory_bytes()) / points;
+        run.contestant.reset(); // all cases' at once would not fit into every memory
+    }
+}
+
+void finish(WantedCase& wanted) {
+    for (Run& run : wanted.runs) {
         BenchRow& row = run.row;
         row.rounds = static_cast<int>(run.step.size());
         row.step = measured(run.step);
         row.forces_and_verlet = measured(run.forces_and_verlet);
         for (std::size_t i = 0; i < row.stages.size(); ++i)
             row.stages[i] = measured(run.stages[i]);
-        row.bytes_per_point = static_cast<double>(run.contestant->memory_bytes()) / points;
-        group.rows.push_back(row);
+        wanted.group.rows.push_back(row);
     }
-    return group;
 }
 
 /// What follows from the measured times.
@@ -251,13 +273,11 @@ const BenchRow* BenchGroup::find(const std::string& kernel, sim::Precision preci
 BenchTable run_bench(const BenchConfig& config) {
     const Filter filter(config.filter);
     const std::vector<BenchCase> cases = bench_cases(config);
-    std::vector<std::vector<Run>> runs;
-    std::size_t wanted = 0, done = 0;
-    for (const BenchCase& which : cases) {
-        runs.push_back(wanted_runs(which, config, filter));
-        wanted += runs.back().empty() ? 0u : 1u;
-    }
-    if (wanted == 0)
+    std::vector<WantedCase> wanted;
+    for (const BenchCase& which : cases)
+        if (std::vector<Run> runs = wanted_runs(which, config, filter); !runs.empty())
+            wanted.push_back({&which, std::move(runs), {}, {}});
+    if (wanted.empty())
         throw BenchFilterError("'" + config.filter + "' matches no run; names are like falling/50/single/avx2/1");
 
     const auto report = [&](const std::string& what) {
@@ -276,28 +296,32 @@ BenchTable run_bench(const BenchConfig& config) {
         if (set.id == best)
             table.best_kernel = set.name;
 
-    std::vector<const sim::Description*> descriptions; // of the groups
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        if (runs[i].empty())
-            continue;
-        const sim::Description& description = cases[i].description;
-        const std::string n = std::to_string(description.cloth.num_width_points);
-        report(cases[i].name + " " + n + " x " + n + ", " + std::to_string(++done) + " of " + std::to_string(wanted));
-        BenchGroup group = measure(cases[i], runs[i], config.quick);
-        runs[i].clear(); // their memory
-        table.groups.push_back(std::move(group));
-        descriptions.push_back(&description);
+    const std::size_t turns = wanted.size() * static_cast<std::size_t>(passes(config.quick));
+    std::size_t turn = 0;
+    for (int pass = 0; pass < passes(config.quick); ++pass) {
+        for (WantedCase& one : wanted) {
+            const std::string n = std::to_string(one.which->description.cloth.num_width_points);
+            report(one.which->name + " " + n + " x " + n + ", " + std::to_string(++turn) + " of " +
+                   std::to_string(turns));
+            if (pass == 0)
+                begin(one);
+            take_pass(one, config.quick);
+        }
+        if (!config.quick) {
+            report("measuring the machine once more");
+            table.machine = best_of(table.machine, measure_machine(threads));
+        }
     }
-    if (!config.quick) {
-        report("measuring the machine once more");
-        table.machine = best_of(table.machine, measure_machine(threads));
+    for (WantedCase& one : wanted) {
+        finish(one);
+        table.groups.push_back(std::move(one.group));
     }
     for (std::size_t i = 0; i < table.groups.size(); ++i) {
         const BenchGroup* pinned = nullptr;
         for (const BenchGroup& other : table.groups)
             if (other.name == "pinned" && other.n == table.groups[i].n)
                 pinned = &other;
-        derive(table.groups[i], table.machine, *descriptions[i], pinned);
+        derive(table.groups[i], table.machine, wanted[i].which->description, pinned);
     }
     table.summary = summarise(table);
     return table;

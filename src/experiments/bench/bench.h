@@ -1,10 +1,10 @@
 // What a step costs: the textbook's algorithm against every kernel, in one process and interleaved.
 //
 // All runs of a case start from the same state and take the same steps, round by round: A B C ... A B C ... What else
-// the machine does meanwhile hits all of them alike, and of the rounds the median counts. A step's time is the wall
-// time of a run of steps divided by their number; the stage timers are on (some 50 ns per stage, a few percent of the
-// very smallest cloths' steps). A run whose steps remember nothing may take fewer steps in a round than the others, if
-// it is slow: always the first ones.
+// the machine does meanwhile hits all of them alike, and of the rounds the median counts. The cases have their turns,
+// too, in three passes. A step's time is the wall time of a run of steps divided by their number; the stage timers are
+// on (some 50 ns per stage, a few percent of the very smallest cloths' steps). A run whose steps remember nothing may
+// take fewer steps in a round than the others, if it is slow: always the first ones.
 #pragma once
 
 #include <array>
