@@ -78,6 +78,15 @@ inline double uniform(sim::SplitMix64& random, double low, double high) {
     return low + (high - low) * random.unit();
 }
 
+/// Lets cloth lie or stand, with some kinds of springs and with damping or without.
+inline void vary_springs(sim::Cloth& cloth, sim::SplitMix64& random) {
+    cloth.orientation = random.next() % 2 == 0 ? sim::Orientation::horizontal : sim::Orientation::vertical;
+    cloth.enable_structural = random.next() % 4 != 0;
+    cloth.enable_shearing = random.next() % 4 != 0;
+    cloth.enable_bending = random.next() % 4 != 0;
+    cloth.damping = random.next() % 3 == 0 ? 0 : 0.3;
+}
+
 inline sim::Vec3 uniform_point(sim::SplitMix64& random, double low, double high) {
     const double x = uniform(random, low, high), y = uniform(random, low, high), z = uniform(random, low, high);
     return {x, y, z};

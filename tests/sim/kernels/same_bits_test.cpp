@@ -41,11 +41,7 @@ sim::Description random_cloth(sim::SplitMix64& random) {
     sim::Description d;
     d.cloth.num_width_points = below(3) == 0 ? 2 + below(18) : below(8) == 0 ? 90 + below(60) : 2 + below(60);
     d.cloth.num_height_points = 2 + below(40);
-    d.cloth.orientation = below(2) == 0 ? sim::Orientation::horizontal : sim::Orientation::vertical;
-    d.cloth.enable_structural = below(4) != 0;
-    d.cloth.enable_shearing = below(4) != 0;
-    d.cloth.enable_bending = below(4) != 0;
-    d.cloth.damping = below(3) == 0 ? 0 : 0.3;
+    vary_springs(d.cloth, random);
     d.cloth.ks = uniform(random, 20, 2000);
     d.cloth.thickness = uniform(random, 0.3, 1.2) / d.cloth.num_width_points;
     for (int pins = below(4); pins > 0; --pins)

@@ -22,11 +22,7 @@ sim::Description random_springs(sim::SplitMix64& random) {
     const int columns = below(4) == 0 ? 2 + below(6) : 2 + below(90);
     const int rows = std::max(8, 300 / columns) + below(60);
     sim::Description d = bare_cloth(columns, rows);
-    d.cloth.orientation = below(2) == 0 ? sim::Orientation::horizontal : sim::Orientation::vertical;
-    d.cloth.enable_structural = below(4) != 0;
-    d.cloth.enable_shearing = below(4) != 0;
-    d.cloth.enable_bending = below(4) != 0;
-    d.cloth.damping = below(3) == 0 ? 0 : 0.3;
+    vary_springs(d.cloth, random);
     d.cloth.ks = uniform(random, 20, 500);
     d.stepping.gravity = {0.3, -9.8, 0.1};
     d.stepping.substeps = 20 + below(40);
