@@ -17,7 +17,7 @@ using namespace clothlab::experiments;
 
 namespace {
 
-BenchConfig tiny(const std::string& filter = "") {
+BenchConfig tiny_bench(const std::string& filter = "") {
     BenchConfig config;
     config.pinned = scene::load_scene(checkout() / "scenes/two-pins.json").simulation;
     config.falling = scene::load_scene(checkout() / "scenes/self-collision.json").simulation;
@@ -74,7 +74,7 @@ TEST_CASE(
     "The bench times every kernel that this machine has, in every case and size, beside the textbook, and all do the "
     "same steps",
     "[threads]") {
-    BenchConfig config = tiny();
+    BenchConfig config = tiny_bench();
     std::vector<std::string> said;
     config.progress = [&](const std::string& what) { said.push_back(what); };
     const BenchTable table = run_bench(config);
@@ -114,7 +114,7 @@ TEST_CASE(
 TEST_CASE("A filter leaves the runs it matches, and the textbook's and the handout's to compare them with",
           "[threads]") {
     const auto on_one_thread = [](const std::string& filter) {
-        BenchConfig config = tiny(filter);
+        BenchConfig config = tiny_bench(filter);
         config.threads = {1};
         return run_bench(config);
     };
@@ -138,7 +138,7 @@ TEST_CASE("A filter leaves the runs it matches, and the textbook's and the hando
 }
 
 TEST_CASE("Cases keep the mass of a point, shrink the thickness with the distance of points and move the pins along") {
-    BenchConfig config = tiny();
+    BenchConfig config = tiny_bench();
     config.sizes = {25, 100};
     const std::vector<BenchCase> cases = bench_cases(config);
     REQUIRE(cases.size() == 7);

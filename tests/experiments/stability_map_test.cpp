@@ -13,7 +13,7 @@ using namespace clothlab::experiments;
 namespace {
 
 /// A cloth of 3 x 3 points that hangs from two of them, and runs of 25 frames.
-StabilityMapConfig tiny() {
+StabilityMapConfig tiny_map() {
     StabilityMapConfig config;
     config.scene = with(scene::Scene{}, {"name=Tiny", "cloth.num_width_points=3", "cloth.num_height_points=3",
                                          "cloth.pinned=[[0,0],[2,0]]", "rules.self_collision=none"});
@@ -42,7 +42,7 @@ std::string kind_at(const Chart& chart, double x, double y) {
 } // namespace
 
 TEST_CASE("The map's boundary of stable runs is that of the full grid, cell by cell") {
-    StabilityMapConfig config = tiny();
+    StabilityMapConfig config = tiny_map();
     const Findings refined = map_stability(config, {});
     config.blocks = 1000;
     const Findings full = map_stability(config, {});
@@ -64,7 +64,7 @@ TEST_CASE("The map's boundary of stable runs is that of the full grid, cell by c
 }
 
 TEST_CASE("At 64 x 64 the boundary takes a fifth of the full grid's runs or less, and is the predicted one to a cell") {
-    StabilityMapConfig config = tiny();
+    StabilityMapConfig config = tiny_map();
     config.x = "cloth.density=20:400:64log";
     config.y = "cloth.ks=1e5:2e7:64log";
     config.scene = with(config.scene, {"simulation.substeps=5"});
@@ -85,7 +85,7 @@ TEST_CASE("At 64 x 64 the boundary takes a fifth of the full grid's runs or less
 }
 
 TEST_CASE("A map does not depend on the number of threads", "[threads]") {
-    StabilityMapConfig config = tiny();
+    StabilityMapConfig config = tiny_map();
     config.x = "simulation.substeps=2:14:5";
     config.y = "cloth.ks=1e5:1e8:9log";
     const Findings one = map_stability(config, {});
@@ -97,7 +97,7 @@ TEST_CASE("A map does not depend on the number of threads", "[threads]") {
 }
 
 TEST_CASE("Settings of a row make its run, and cells can be clicked") {
-    StabilityMapConfig config = tiny();
+    StabilityMapConfig config = tiny_map();
     config.x = "method=course-verlet,rk4,backward-euler";
     config.y = "cloth.ks=1e7:1e9:12log";
     const Findings findings = map_stability(config, {});
@@ -130,9 +130,9 @@ TEST_CASE("Settings of a row make its run, and cells can be clicked") {
 }
 
 TEST_CASE("A map of one parameter twice is refused, and a map can be cancelled") {
-    StabilityMapConfig config = tiny();
+    StabilityMapConfig config = tiny_map();
     config.x = config.y;
     REQUIRE_THROWS_AS(map_stability(config, {}), Refusal);
     const Progress cancelled{[](double, const std::string&) { return false; }};
-    REQUIRE_THROWS_AS(map_stability(tiny(), cancelled), Cancelled);
+    REQUIRE_THROWS_AS(map_stability(tiny_map(), cancelled), Cancelled);
 }
