@@ -86,7 +86,7 @@ bool no_vectors() {
 
 TEMPLATE_TEST_CASE("Many steps at once have the bits of as many single ones, whatever the cloth and the threads",
                    "[threads]", float, double) {
-    for (std::uint64_t seed = 0; seed < attempts(60); ++seed)
+    for (std::uint64_t seed = 0; seed < attempts(30); ++seed)
         require_same_steps<TestType>(seed);
 }
 
