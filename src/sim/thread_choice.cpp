@@ -21,7 +21,8 @@ constexpr double hopeless = 3;
 /// More threads have to be worth their cores.
 constexpr double worth = 0.95;
 /// While several threads are used, so many steps at least at a time are timed; if they take this much longer than with
-/// one thread, something else needs the machine, and one thread goes on alone until the next measurement.
+/// one thread, something else needs the machine, and one thread goes on alone: for `soon` steps, and for twice as many
+/// each time that it happens again. A moment's hold-up should not cost seconds, nor should looking again all the time.
 constexpr int watched = 32;
 constexpr double patience = 1.5;
 
@@ -51,15 +52,20 @@ void ThreadChoice::end_step(int steps) {
     step_ += steps;
     if (!measuring_) {
         since_ += steps;
-        if (since_ >= steps_between)
+        if (since_ >= until_) {
+            if (until_ == steps_between)
+                alone_for_ = soon;
             return restart();
+        }
         if (step_ < watched)
             return;
         const double now = std::exchange(seconds_, 0) / std::exchange(step_, 0), then = best_[now_];
         round_ = now > another * then || now * another < then ? round_ + 1 : 0;
-        if (now_ != 0 && now > patience * best_[0])
+        if (now_ != 0 && now > patience * best_[0]) {
             now_ = 0;
-        else if (since_ >= patient_for_ && round_ >= without_break)
+            since_ = 0;
+            until_ = std::exchange(alone_for_, std::min(2 * alone_for_, steps_between));
+        } else if (since_ >= patient_for_ && round_ >= without_break)
             restart();
         return;
     }
@@ -81,6 +87,7 @@ void ThreadChoice::end_step(int steps) {
     before_ = now_;
     measuring_ = false;
     round_ = since_ = 0;
+    until_ = steps_between;
 }
 
 } // namespace clothlab::sim

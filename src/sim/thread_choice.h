@@ -31,7 +31,9 @@ private:
     std::size_t now_ = 0;
     bool measuring_ = false;
     int step_ = 0, round_ = 0;
-    int since_ = 0;           ///< steps since it was measured
+    int since_ = 0;           ///< steps since it was measured, or since several threads were held up
+    int until_ = 0;           ///< so many: then it is measured again
+    int alone_for_ = 512;     ///< steps with one thread when several are held up the next time
     int patient_for_ = 256;   ///< steps at least until it is measured again
     std::size_t before_ = 0;  ///< what was measured to be best the last time
     double seconds_ = 0;      ///< that the steps of the block under way have taken, without what was between them

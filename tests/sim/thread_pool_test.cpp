@@ -187,6 +187,28 @@ TEST_CASE("A run whose threads are held up goes on with one") {
     REQUIRE(choice.threads() == 1);
 }
 
+TEST_CASE("A run whose threads were held up for a moment goes back to them before long, and later each time") {
+    ThreadChoice choice(2, true);
+    const auto go_on = [&](int milliseconds) { // by 32 steps at once
+        choice.begin_step();
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        choice.end_step(32);
+    };
+    const auto as_usual = [&] { go_on(choice.threads() == 1 ? 6 : 2); };
+    for (int block = 0; block < 2 * 4; ++block) // the first measurement
+        as_usual();
+    for (const int alone : {512, 1024, 2048}) {
+        REQUIRE(choice.threads() == 2);
+        go_on(60);
+        for (int steps = 0; steps < alone; steps += 32) {
+            REQUIRE(choice.threads() == 1);
+            as_usual();
+        }
+        for (int block = 0; block < 2 * 4; ++block)
+            as_usual();
+    }
+}
+
 TEST_CASE("A run whose steps have become another work looks again before long") {
     ThreadChoice choice(2, true);
     bool folded = false;
