@@ -16,7 +16,7 @@ constexpr int block = 8, rounds = 4;
 /// machine does comes and goes.
 constexpr int steps_between = 8192, soon = 512, without_break = 8;
 constexpr double another = 1.4;
-/// A block that takes so many times as long as with one thread is not tried again: its threads are held up.
+/// A block that takes so many times as long as with one thread is the last one: its threads are held up.
 constexpr double hopeless = 3;
 /// More threads have to be worth their cores.
 constexpr double worth = 0.95;
@@ -45,6 +45,10 @@ void ThreadChoice::restart() {
     std::fill(best_.begin(), best_.end(), std::numeric_limits<double>::infinity());
 }
 
+int ThreadChoice::next_time_alone() {
+    return std::exchange(alone_for_, std::min(2 * alone_for_, steps_between));
+}
+
 void ThreadChoice::end_step(int steps) {
     if (candidates_.size() == 1)
         return;
@@ -64,7 +68,7 @@ void ThreadChoice::end_step(int steps) {
         if (now_ != 0 && now > patience * best_[0]) {
             now_ = 0;
             since_ = 0;
-            until_ = std::exchange(alone_for_, std::min(2 * alone_for_, steps_between));
+            until_ = next_time_alone();
         } else if (since_ >= patient_for_ && round_ >= without_break)
             restart();
         return;
@@ -72,7 +76,8 @@ void ThreadChoice::end_step(int steps) {
     if (step_ < block)
         return;
     const double took = std::exchange(seconds_, 0) / std::exchange(step_, 0);
-    if (took > hopeless * best_[0])
+    const bool held_up = took > hopeless * best_[0];
+    if (held_up)
         round_ = rounds - 1; // the last one
     best_[now_] = std::min(best_[now_], took);
     if (++now_ < candidates_.size())
@@ -87,7 +92,7 @@ void ThreadChoice::end_step(int steps) {
     before_ = now_;
     measuring_ = false;
     round_ = since_ = 0;
-    until_ = steps_between;
+    until_ = held_up ? next_time_alone() : steps_between;
 }
 
 } // namespace clothlab::sim

@@ -25,6 +25,9 @@ public:
     void restart();
 
 private:
+    /// Steps for which one thread goes on alone, since several were held up.
+    int next_time_alone();
+
     using Clock = std::chrono::steady_clock;
     std::vector<int> candidates_; ///< 1, 2, 4, ..., most
     std::vector<double> best_;    ///< s, a step of the fastest block of each

@@ -195,9 +195,8 @@ TEST_CASE("A run whose threads were held up for a moment goes back to them befor
         choice.end_step(32);
     };
     const auto as_usual = [&] { go_on(choice.threads() == 1 ? 6 : 2); };
-    for (int block = 0; block < 2 * 4; ++block) // the first measurement
-        as_usual();
-    for (const int alone : {512, 1024, 2048}) {
+    as_usual();
+    for (const int alone : {512, 1024, 2048}) { // first while they are measured
         REQUIRE(choice.threads() == 2);
         go_on(60);
         for (int steps = 0; steps < alone; steps += 32) {
