@@ -88,7 +88,8 @@ void ThreadChoice::end_step(int steps) {
     for (std::size_t i = 1; i < best_.size(); ++i)
         if (best_[i] < worth * best_[now_])
             now_ = i;
-    patient_for_ = now_ == before_ ? std::min(2 * patient_for_, steps_between) : soon;
+    if (!held_up) // which says nothing of what the steps are
+        patient_for_ = now_ == before_ ? std::min(2 * patient_for_, steps_between) : soon;
     before_ = now_;
     measuring_ = false;
     round_ = since_ = 0;
