@@ -15,10 +15,10 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
 
 /// Sizes the memory that resolve_in_cells needs beside what the list of pairs has.
 template <class Real>
-void prepare_cells(std::size_t points, SelfCollisionWork<Real>& work);
+void prepare_cells(const Grid<Real>& grid, SelfCollisionWork<Real>& work);
 
-extern template void prepare_cells<float>(std::size_t, SelfCollisionWork<float>&);
-extern template void prepare_cells<double>(std::size_t, SelfCollisionWork<double>&);
+extern template void prepare_cells<float>(const Grid<float>&, SelfCollisionWork<float>&);
+extern template void prepare_cells<double>(const Grid<double>&, SelfCollisionWork<double>&);
 extern template std::size_t resolve_in_cells<float>(const Model<float>&, State<float>&, Workspace<float>&);
 extern template std::size_t resolve_in_cells<double>(const Model<double>&, State<double>&, Workspace<double>&);
 

@@ -97,7 +97,7 @@ void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work) {
     s.order.resize(points);
     s.key.resize(points);
     s.cell_end.resize(most_cells(points) + 1);
-    prepare_cells(points, s);
+    prepare_cells(*model.grid, s);
 }
 
 template std::size_t resolve_self_collision<float>(const Model<float>&, State<float>&, Workspace<float>&);

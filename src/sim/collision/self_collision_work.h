@@ -10,6 +10,7 @@
 
 #include "sim/aligned.h"
 #include "sim/collision/block_tree.h"
+#include "sim/collision/regular_blocks.h"
 #include "sim/kernels/kernels.h"
 
 namespace clothlab::sim {
@@ -50,6 +51,10 @@ struct SelfCollisionWork {
 
     // Points sorted by cell: while the list is made, and many contacts. Then there is no list, and `anchor` has the
     // cells of all points as whole numbers where their keys do not tell them apart.
+    RegularBlocks<Real> blocks;           ///< which points are to be sorted
+    double blocks_bound = 1;              ///< m, no coordinate is expected to be larger
+    int without_blocks = 0;               ///< steps to be done with all points, since nearly all were to be sorted
+    int without_blocks_next = 0;          ///< how many the next time
     AlignedVector<std::uint32_t> key;     ///< of each point's cell
     std::vector<std::uint32_t> order;     ///< points by cell
     std::vector<std::uint32_t> cell_end;  ///< per cell, or bucket of cells

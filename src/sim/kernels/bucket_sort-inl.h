@@ -16,14 +16,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace clothlab::sim::HWY_NAMESPACE {
 
-/// Writes where runs of equal keys end and returns how many there are. No branch depends on a key.
-HWY_INLINE std::size_t find_runs(const std::uint32_t* key, std::size_t count, std::uint32_t* run_end) {
+/// Writes where runs of equal keys of a span end and returns how many there are. No branch depends on a key.
+HWY_INLINE std::size_t find_runs(const std::uint32_t* key, PointSpan span, std::uint32_t* run_end) {
     const hn::ScalableTag<std::uint32_t> d;
     constexpr std::size_t step = HWY_LANES(std::uint32_t);
     std::size_t runs = 0;
-    for (std::size_t i = 0; i + 1 < count; i += step) {
+    for (std::size_t i = span.begin; i + 1 < span.end; i += step) {
         const auto ends = hn::And(hn::Ne(hn::LoadU(d, key + i), hn::LoadU(d, key + i + 1)),
-                                  hn::FirstN(d, HWY_MIN(count - 1 - i, step)));
+                                  hn::FirstN(d, HWY_MIN(span.end - 1 - i, step)));
         const auto after = hn::Set(d, static_cast<std::uint32_t>(i + 1));
 #if HWY_TARGET == HWY_AVX3
         hn::StoreU(hn::Compress(hn::Add(hn::Iota(d, 0), after), ends), d, run_end + runs);
@@ -45,7 +45,7 @@ HWY_INLINE std::size_t find_runs(const std::uint32_t* key, std::size_t count, st
         }
 #endif
     }
-    run_end[runs] = static_cast<std::uint32_t>(count);
+    run_end[runs] = span.end;
     return runs + 1;
 }
 
@@ -68,14 +68,19 @@ HWY_INLINE void write_run(std::uint32_t i, std::uint32_t end, std::uint32_t* ord
 
 inline BucketList sort_by_bucket(const BucketSortArguments& arguments) {
     const BucketSortArguments a = arguments; // what is stored is none of them: they stay in registers
-    const std::size_t runs = find_runs(a.key, a.count, a.run_end), buckets = std::size_t{a.mask} + 1;
+    const std::size_t buckets = std::size_t{a.mask} + 1;
+    std::size_t runs = 0;
+    for (const PointSpan span : a.points)
+        runs += find_runs(a.key, span, a.run_end + runs);
+    // Calls visit(first, end) for each run.
+    const auto for_runs = [&](auto visit) {
+        const std::uint32_t* run = a.run_end;
+        for (const PointSpan span : a.points)
+            for (std::uint32_t first = span.begin; first != span.end; first = *run++)
+                visit(first, *run);
+    };
     std::fill_n(a.next, buckets, 0u);
-    std::uint32_t first = 0;
-    for (std::size_t run = 0; run < runs; ++run) {
-        const std::uint32_t end = a.run_end[run];
-        a.next[a.key[first] & a.mask] += end - first;
-        first = end;
-    }
+    for_runs([&](std::uint32_t first, std::uint32_t end) { a.next[a.key[first] & a.mask] += end - first; });
     BucketList list{0, 0};
     std::uint32_t begin = 0, largest = 0;
     for (std::size_t b = 0; b < buckets; ++b) {
@@ -86,13 +91,10 @@ inline BucketList sort_by_bucket(const BucketSortArguments& arguments) {
         largest = HWY_MAX(largest, size);
     }
     list.largest = largest;
-    first = 0;
-    for (std::size_t run = 0; run < runs; ++run) {
-        const std::uint32_t end = a.run_end[run];
+    for_runs([&](std::uint32_t first, std::uint32_t end) HWY_ATTR {
         std::uint32_t& next = a.next[a.key[first] & a.mask];
         write_run(first, end, a.order + std::exchange(next, next + end - first));
-        first = end;
-    }
+    });
     return list;
 }
 

@@ -22,6 +22,7 @@
 #include "sim/kernels/kernels.h"
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+#include "sim/kernels/block_shapes-inl.h"
 #include "sim/kernels/bucket_sort-inl.h"
 #include "sim/kernels/cell_keys-inl.h"
 #include "sim/kernels/contact_cells-inl.h"
@@ -60,6 +61,7 @@ const Kernels<Real>* table() {
                                            proximity<Real>,
                                            far_pairs<Real>,
                                            keep_pairs<Real>,
+                                           block_shapes<Real>,
                                            cell_keys<Real>,
                                            sort_by_bucket,
                                            cell_pass<Real>};

@@ -148,6 +148,31 @@ struct ProximityArguments {
     std::size_t count = 0;         ///< out: near pairs
 };
 
+/// Rows and columns of a block (BlockShape).
+inline constexpr std::size_t block_side = 16;
+
+/// What bounds the points of a block of the grid and the edges that end there: x, y and z in m of the points, of the
+/// edges to them from the column before, and of those from the row before.
+template <class Real>
+struct BlockShape {
+    std::array<Real, 9> low, high;
+};
+/// Of a block: some edge that ends there may be a contact; one from the block before; one from the block above;
+/// some number is not finite.
+enum BlockFlag : std::uint8_t { block_near = 1, block_near_before = 2, block_near_above = 4, block_not_finite = 8 };
+
+/// Blocks of a grid, row by row; the last of a row and of a column may be smaller. A shape may be larger than it need
+/// be by points and edges of the blocks around, and so may flags be true.
+template <class Real>
+struct BlockArguments {
+    ConstAxes<Real> x;
+    std::size_t columns, rows; ///< of points; more columns than block_side, two rows or more
+    std::size_t begin, end;    ///< rows of blocks
+    Real reach_squared;        ///< m²: edges that are not at least so long are near
+    BlockShape<Real>* shapes;  ///< out: of all blocks of the grid
+    std::uint8_t* flags;       ///< out: BlockFlags, of all blocks of the grid
+};
+
 /// All pairs nearer than `reach` of points that lie sorted by the cells of a box, each cell at least that wide, but for
 /// those that are neighbours in the grid (diagonal ones too).
 template <class Real>
@@ -185,6 +210,20 @@ struct CellKeys {
     bool exact;                    ///< no two cells have the same key
 };
 
+/// Points from one to before another.
+struct PointSpan {
+    std::uint32_t begin, end;
+};
+
+/// Spans of points: ascending, none empty, at least one.
+struct PointSpans {
+    const PointSpan* spans;
+    std::size_t count;  ///< spans
+    std::size_t points; ///< in all of them
+    const PointSpan* begin() const { return spans; }
+    const PointSpan* end() const { return spans + count; }
+};
+
 /// Where a point lies in its cell: x, y and z from the cell's corner in units, 32767 of which are the cell's longest
 /// side, and which of the cells of its bucket that is.
 struct alignas(8) CellPlace {
@@ -194,15 +233,23 @@ inline constexpr int cell_units = 32767;
 /// Points whose place is not a number have this for a cell.
 inline constexpr std::uint32_t no_cell = 0xffff;
 
-/// Sorted points from one to before another.
-struct PointSpan {
-    std::uint32_t begin, end;
+/// Points of which the cells are wanted. All arrays that are written have a vector of padding behind, and others than
+/// the points of the spans may be written, too.
+template <class Real>
+struct CellKeyArguments {
+    ConstAxes<Real> x;
+    PointSpans points;
+    std::array<Real, 3> size; ///< m, of a cell
+    int bucket_bits;          ///< so many lowest bits of a key tell the bucket
+    Axes<Real> cell;          ///< out, only if keys are not exact: the cells, whole numbers
+    std::uint32_t* key;       ///< out: of each point's cell
+    CellPlace* places;        ///< out: of each point in its cell
 };
 
 /// Points to be sorted by the lowest bits of their keys.
 struct BucketSortArguments {
     const std::uint32_t* key; ///< of each point, a vector of padding behind
-    std::size_t count;        ///< points, at least one
+    PointSpans points;        ///< which are sorted
     std::uint32_t mask;       ///< of the bits
     std::uint32_t* run_end;   ///< memory: one per point and a vector of padding
     std::uint32_t* next;      ///< memory: one per bucket
@@ -251,11 +298,8 @@ struct Kernels {
     /// Keeps, in order, those of `count` pairs whose points are not at least the reach apart and lie in the same cell;
     /// returns how many, and the square of the least distance of such a pair.
     KeptPairs<Real> (*keep_pairs)(const CellArguments<Real>&, Real reach_squared, PointPair* pairs, std::size_t count);
-    /// Finds a key of the cell of each point and the place of the point in it, a vector of padding behind each. The
-    /// lowest bits of a key, as many as `bucket_bits`, tell the bucket. If keys are not exact, also the cells, whole
-    /// numbers in Real.
-    CellKeys<Real> (*cell_keys)(const CellArguments<Real>&, int bucket_bits, const Axes<Real>& cell, std::uint32_t* key,
-                                CellPlace* places);
+    void (*block_shapes)(const BlockArguments<Real>&);
+    CellKeys<Real> (*cell_keys)(const CellKeyArguments<Real>&);
     BucketList (*sort_by_bucket)(const BucketSortArguments&);
     /// Applies the rule to each bucket, all its points in order. Returns the number of pushes.
     std::size_t (*cell_pass)(const CellPassArguments<Real>&);
