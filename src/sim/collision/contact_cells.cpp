@@ -18,7 +18,10 @@ constexpr std::size_t points_per_bucket = 8;
 constexpr std::size_t most_lanes = 16;
 
 /// Fewer bits may not tell all cells of a box apart.
-constexpr int least_bits = 10;
+constexpr int least_bucket_bits = 10;
+/// Buckets are gone through side by side where a larger share of all pairs of their points push each other. Below, it
+/// costs more to look at all pairs than to find those that do.
+constexpr double dense_share = 0.1;
 /// Where most points are to be sorted, all are for some steps, without asking which, and for twice as many every next
 /// time.
 constexpr int least_without = 32, most_without = 512;
@@ -71,6 +74,28 @@ PointSpans points_to_sort(const Model<Real>& model, const Vec3Array<Real>& posit
     return every_point;
 }
 
+/// Shared out among threads. Returns the number of pushes.
+template <class Real>
+std::size_t go_through(const CellPassArguments<Real>& all, std::size_t points, Workspace<Real>& work) {
+    const int threads = work.pool ? work.choice.threads() : 1;
+    if (threads == 1)
+        return work.kernels->cell_pass(all);
+    const auto pass = [&](int index) {
+        const auto cut = [&](int i) {
+            const std::size_t at =
+                work.pace.from(static_cast<std::size_t>(i), static_cast<std::size_t>(threads), points);
+            return std::partition_point(all.buckets_begin, all.buckets_end,
+                                        [&](const PointSpan& bucket) { return bucket.end <= at; });
+        };
+        CellPassArguments<Real> part = all;
+        part.buckets_begin = cut(index);
+        part.buckets_end = cut(index + 1);
+        work.counts[static_cast<std::size_t>(index)] = work.kernels->cell_pass(part);
+    };
+    work.pool->run(threads, pass);
+    return std::accumulate(work.counts.begin(), work.counts.begin() + threads, std::size_t{0});
+}
+
 } // namespace
 
 template <class Real>
@@ -78,6 +103,7 @@ void prepare_cells(const Grid<Real>& grid, SelfCollisionWork<Real>& work) {
     const std::size_t points = grid.points();
     work.blocks.resize(static_cast<std::size_t>(grid.columns), static_cast<std::size_t>(grid.rows));
     work.without_blocks = work.without_blocks_next = 0;
+    work.dense = false;
     work.run_end.resize(points);
     work.buckets.resize((std::size_t{1} << bucket_bits(points)) + 1);
     work.sorted.resize(std::max(4 * sizeof(Real), sizeof(CellPlace)) * (points + most_lanes));
@@ -92,7 +118,7 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     const PointSpans points = points_to_sort(model, position, all_points, work);
     if (points.points == 0)
         return 0;
-    const int bits = std::max(bucket_bits(points.points), std::min(least_bits, bucket_bits(position.size())));
+    const int bits = std::max(bucket_bits(points.points), std::min(least_bucket_bits, bucket_bits(position.size())));
     const CellKeys<Real> keys = work.kernels->cell_keys(
         {std::as_const(position).axes(), points, width, bits, s.anchor.axes(), s.key.data(), s.places()});
     const std::uint32_t mask = (std::uint32_t{1} << bits) - 1;
@@ -101,7 +127,9 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
     const double reach = cell_reach(model, static_cast<double>(keys.largest));
     // Each coordinate is rounded to a unit, and the numbers that are rounded are not exact.
     const double units = reach * cell_units / *std::max_element(width.begin(), width.end()) + 3;
+    const Real apart = Real(2) * model.thickness;
     const CellPassArguments<Real> all{position.axes(),
+                                      s.key.data(),
                                       s.places(),
                                       s.order.data(),
                                       std::as_const(s.anchor).axes(),
@@ -110,27 +138,16 @@ std::size_t resolve_in_cells(const Model<Real>& model, State<Real>& state, Works
                                       s.buckets.data() + buckets.count,
                                       buckets.largest,
                                       model.pinned.data(),
-                                      Real(2) * model.thickness,
+                                      apart,
                                       static_cast<Real>(reach * reach * (1 + 1e-6)),
                                       static_cast<std::int16_t>(std::min(units * units / 65536, 32767.0)),
-                                      static_cast<Real>(model.substeps)};
-    const int threads = work.pool ? work.choice.threads() : 1;
-    if (threads == 1)
-        return work.kernels->cell_pass(all);
-    const auto pass = [&](int index) {
-        const auto cut = [&](int i) {
-            const std::size_t at =
-                work.pace.from(static_cast<std::size_t>(i), static_cast<std::size_t>(threads), points.points);
-            return std::partition_point(all.buckets_begin, all.buckets_end,
-                                        [&](const PointSpan& bucket) { return bucket.end <= at; });
-        };
-        CellPassArguments<Real> part = all;
-        part.buckets_begin = cut(index);
-        part.buckets_end = cut(index + 1);
-        work.counts[static_cast<std::size_t>(index)] = work.kernels->cell_pass(part);
-    };
-    work.pool->run(threads, pass);
-    return std::accumulate(work.counts.begin(), work.counts.begin() + threads, std::size_t{0});
+                                      apart * apart * (1 + 8 * std::numeric_limits<Real>::epsilon()) +
+                                          std::numeric_limits<Real>::min(),
+                                      static_cast<Real>(model.substeps),
+                                      s.dense};
+    const std::size_t pushes = go_through(all, points.points, work);
+    s.dense = static_cast<double>(pushes) > dense_share * static_cast<double>(buckets.pairs);
+    return pushes;
 }
 
 template void prepare_cells<float>(const Grid<float>&, SelfCollisionWork<float>&);

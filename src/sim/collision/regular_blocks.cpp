@@ -200,7 +200,7 @@ bool RegularBlocks<Real>::find(double reach) {
     if (looked_at_ > most_looked_at())
         return false;
     list_spans();
-    return 4 * points_ <= 3 * columns_ * rows_;
+    return 3 * points_ <= 2 * columns_ * rows_;
 }
 
 template <class Real>

@@ -58,6 +58,7 @@ struct SelfCollisionWork {
     AlignedVector<std::uint32_t> key;     ///< of each point's cell
     std::vector<std::uint32_t> order;     ///< points by cell
     std::vector<std::uint32_t> cell_end;  ///< per cell, or bucket of cells
+    bool dense = false;                   ///< in the last step most points of a bucket pushed each other
     AlignedVector<std::uint32_t> run_end; ///< of points that follow each other in a cell
     std::vector<PointSpan> buckets;       ///< of several points, in `order`
     AlignedVector<std::byte> sorted;      ///< the list: four Reals per point; many contacts: a place per point

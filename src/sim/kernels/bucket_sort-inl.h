@@ -81,12 +81,13 @@ inline BucketList sort_by_bucket(const BucketSortArguments& arguments) {
     };
     std::fill_n(a.next, buckets, 0u);
     for_runs([&](std::uint32_t first, std::uint32_t end) { a.next[a.key[first] & a.mask] += end - first; });
-    BucketList list{0, 0};
+    BucketList list{0, 0, 0};
     std::uint32_t begin = 0, largest = 0;
     for (std::size_t b = 0; b < buckets; ++b) {
         const std::uint32_t size = std::exchange(a.next[b], begin);
         a.buckets[list.count] = {begin, begin + size};
         list.count += size > 1 ? 1 : 0;
+        list.pairs += std::uint64_t{size} * size - size;
         begin += size;
         largest = HWY_MAX(largest, size);
     }

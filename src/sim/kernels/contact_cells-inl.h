@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "sim/collision/push_sum.h"
+#include "sim/kernels/dense_cells-inl.h"
 #include "sim/kernels/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -284,18 +285,16 @@ HWY_NOINLINE std::size_t crowded_pass(const CellPassArguments<Real>& a) {
     return pusher.count();
 }
 
-/// A bucket may hold several cells; only points of the same cell push each other, and so each pair counts once.
+/// Buckets of which none is too large for a batch, batch by batch.
 template <class Real>
-std::size_t cell_pass(const CellPassArguments<Real>& a) {
-    if (HWY_UNLIKELY(!a.exact || a.largest_bucket > Batch<Real>::most_points))
-        return crowded_pass(a); // its bits do not fit into a batch
-    Batch<Real> batch;
+HWY_INLINE std::size_t batch_pass(const CellPassArguments<Real>& a, const PointSpan* begin,
+                                  const PointSpan* buckets_end, Batch<Real>& batch) {
     std::size_t total = 0;
-    for (const PointSpan* begin = a.buckets_begin; begin != a.buckets_end;) {
+    while (begin != buckets_end) {
         const std::size_t first = begin->begin;
         const PointSpan* end = begin;
         std::size_t largest = 0, last = first;
-        for (; end != a.buckets_end && end->end - first <= Batch<Real>::most_points; ++end) {
+        for (; end != buckets_end && end->end - first <= Batch<Real>::most_points; ++end) {
             largest = HWY_MAX(largest, std::size_t{end->end} - end->begin);
             last = end->end;
         }
@@ -319,6 +318,17 @@ std::size_t cell_pass(const CellPassArguments<Real>& a) {
         begin = end;
     }
     return total;
+}
+
+/// A bucket may hold several cells; only points of the same cell push each other, and so each pair counts once.
+template <class Real>
+std::size_t cell_pass(const CellPassArguments<Real>& a) {
+    if (HWY_UNLIKELY(!a.exact || a.largest_bucket > Batch<Real>::most_points))
+        return crowded_pass(a); // its bits do not fit into a batch
+    Batch<Real> batch;
+    if (a.dense)
+        return dense_pass(a, [&](const PointSpan& bucket) { return batch_pass(a, &bucket, &bucket + 1, batch); });
+    return batch_pass(a, a.buckets_begin, a.buckets_end, batch);
 }
 
 } // namespace clothlab::sim::HWY_NAMESPACE

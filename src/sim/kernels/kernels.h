@@ -258,6 +258,7 @@ struct BucketSortArguments {
 };
 struct BucketList {
     std::size_t count, largest; ///< buckets of several points; points of the largest bucket
+    std::uint64_t pairs;        ///< of points of one bucket, counted from both
 };
 
 /// The course's self-collision among points that lie sorted by buckets of cells. Which may touch is looked up in whole
@@ -265,6 +266,7 @@ struct BucketList {
 template <class Real>
 struct CellPassArguments {
     Axes<Real> x;                                 ///< of all points; moved
+    const std::uint32_t* key;                     ///< of all points
     const CellPlace* places;                      ///< of all points
     const std::uint32_t* order;                   ///< points by bucket; ascending in each
     ConstAxes<Real> cell;                         ///< of each point, whole numbers, unless `exact`
@@ -276,7 +278,9 @@ struct CellPassArguments {
     Real reach_squared; ///< m²: points that are not nearer at the beginning do not get nearer than `apart`
     /// The same in units: points for which the sum of the squares, each over 65536 and rounded down, is not larger.
     std::int16_t near;
+    Real touching_squared; ///< m²: points that are not nearer are not nearer than `apart`, whatever is rounded
     Real substeps;
+    bool dense; ///< most points of a bucket are near each other
 };
 
 template <class Real>

@@ -161,6 +161,18 @@ TEST_CASE("Self-collision by kernels has the bits of the plain loops", "[threads
     });
 }
 
+TEST_CASE("Self-collision in cells, side by side or one by one, has the bits of the plain loops", "[threads]") {
+    require_same_stages([](auto& sheet) {
+        std::size_t pushes = 0;
+        for (int i = 0; i < 3; ++i) {
+            sheet.work.self_collision.without_list = 1;
+            sheet.work.self_collision.dense = i != 1;
+            pushes += sim::resolve_self_collision(sheet.model, sheet.state, sheet.work);
+        }
+        return pushes;
+    });
+}
+
 TEST_CASE("A force of minus zero stays one: such scenes are left to the plain loops") {
     sim::Description description = bare_cloth(20, 4);
     description.cloth.density = -150;
