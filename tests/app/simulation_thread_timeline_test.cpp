@@ -59,7 +59,7 @@ TEST_CASE("What a step costs is told of the steps that are taken, not of those t
     REQUIRE(told(finished(thread)) > 0);
     thread.step_frames(20);
     finished(thread);
-    for (const std::uint64_t step : {3, 90}) {
+    for (const std::uint64_t step : {3u, 90u}) {
         thread.seek(step);
         REQUIRE(told(finished(thread)) == 0);
     }
@@ -73,7 +73,7 @@ TEST_CASE("A seek shows the step that was asked for last, and pauses", "[threads
     thread.step_frames(20);
     finished(thread);
     thread.play(true);
-    for (const std::uint64_t step : {3, 90, 41, 17})
+    for (const std::uint64_t step : {3u, 90u, 41u, 17u})
         thread.seek(step);
     const app::Published published = finished(thread);
     REQUIRE(shows(published, *after(17)));
@@ -126,7 +126,7 @@ TEST_CASE("Playing goes round in a loop, forwards and backwards", "[threads]") {
         finished(thread);
         thread.play(true, backwards);
         for (int round = 0; round < 2; ++round)
-            for (const std::uint64_t frame : {6, 4})
+            for (const std::uint64_t frame : {6u, 4u})
                 wait_for(thread, [&](const app::Published& p) {
                     REQUIRE(p.playhead.frame >= 4);
                     REQUIRE(p.playhead.frame <= 6);

@@ -35,7 +35,7 @@ TEST_CASE("Over the budget states thin out evenly, the older ones first, and eve
 }
 
 TEST_CASE("States thin out to as many frames as a seek may take before any frame is dropped") {
-    for (const unsigned widest : {1, 2, 3, 5, 6, 7, 12}) {
+    for (const unsigned widest : {1u, 2u, 3u, 5u, 6u, 7u, 12u}) {
         INFO(widest << " frames are within a seek's time");
         Timeline timeline = made_up(1 << 20, 600, 1000, 0.01 / (widest + 0.1));
         CacheOptions options = timeline.options();

@@ -80,8 +80,8 @@ TEST_CASE("A PLY file has positions to the bit, unit normals, texture coordinate
         for (int n = 0; n < 30; ++n)
             simulation->step_frame();
         std::istringstream in(timeline::mesh_text(*simulation, timeline::MeshFormat::ply, "two\nlines"));
-        const bool single = precision == sim::Precision::single_precision;
-        const std::string real = single ? "float" : "double";
+        const bool is_single = precision == sim::Precision::single_precision;
+        const std::string real = is_single ? "float" : "double";
         const Names expected{"ply",
                              "format binary_little_endian 1.0",
                              "comment clothlab: two lines",
@@ -106,7 +106,7 @@ TEST_CASE("A PLY file has positions to the bit, unit normals, texture coordinate
         for (std::size_t i = 0; i < simulation->points(); ++i) {
             sim::Vec3 p;
             for (double* x : {&p.x, &p.y, &p.z})
-                *x = single ? static_cast<double>(take<float>(in)) : take<double>(in);
+                *x = is_single ? static_cast<double>(take<float>(in)) : take<double>(in);
             REQUIRE(p == simulation->position(i));
             sim::Vec3& n = normals.emplace_back();
             for (double* x : {&n.x, &n.y, &n.z})

@@ -176,7 +176,7 @@ TEST_CASE("Flat, sheared, gently bent and rough cloth need no look, a fold or a 
 TEST_CASE("Of cloth with a point that is not finite, and of narrow cloth, blocks say nothing") {
     for (const double value :
          {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::quiet_NaN(), 1e30})
-        for (const std::size_t at : {0, 16, 31, 32, 33 * 16, 33 * 40 + 32, 33 * 41 - 1})
+        for (const std::size_t at : {0u, 16u, 31u, 32u, 33u * 16, 33u * 40 + 32, 33u * 41 - 1})
             for (const sim::InstructionSet set : vector_sets()) {
                 auto x = place<float>(surfaces[0], 33, 41);
                 x.y[at] = static_cast<float>(value);

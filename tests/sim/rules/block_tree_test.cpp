@@ -11,8 +11,9 @@ using namespace clothlab;
 using namespace clothlab::test;
 
 TEST_CASE("The block tree finds every pair of cells with near boxes once, and no others") {
-    for (const auto& [columns, rows] : {std::pair{2, 2}, {2, 9}, {5, 5}, {6, 9}, {17, 12}})
+    for (const auto& size : {std::pair{2, 2}, {2, 9}, {5, 5}, {6, 9}, {17, 12}})
         for (const double reach : {0.0, 0.05, 0.4, 100.0}) {
+            const int columns = size.first, rows = size.second;
             sim::SplitMix64 random(static_cast<std::uint64_t>(columns));
             sim::Vec3Array<double> x;
             x.resize(static_cast<std::size_t>(columns * rows));
