@@ -72,12 +72,19 @@ LabApp::LabApp(const LabOptions& options, scene::Scene scene, fs::path file)
 LabApp::~LabApp() = default;
 
 void LabApp::run() {
+    using Clock = std::chrono::steady_clock;
     // Paused and untouched, the lab rests: a few frames a second keep its state fresh.
-    for (;;) {
+    for (double rest = 0;;) {
         const bool busy = lab_.playing || lab_.flight || pictures_.recording() || timeline_desk_.expects_news() ||
                           experiment_desk_.expects_news() || ImGui::IsAnyItemActive() || dialog_;
-        if (!frame(!busy ? 0.05 : idle_ ? 0.004 : 0))
+        const Clock::time_point begun = Clock::now();
+        if (!frame(!busy ? 0.05 : idle_ ? 0.004 : rest))
             return;
+        if (!render::software_rendering())
+            continue; // the simulation has the processor to itself
+        const double passed = std::chrono::duration<double>(Clock::now() - begun).count();
+        const bool late = lab_.playing && lab_.real_time_factor > 0 && lab_.real_time_factor < 0.97 * lab_.speed;
+        rest = rest_.after(std::max(passed - rest, 0.0), late);
     }
 }
 

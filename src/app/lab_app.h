@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/core/history.h"
+#include "app/core/picture_rest.h"
 #include "app/core/simulation_thread.h"
 #include "app/experiment_desk.h"
 #include "app/gui/imgui_layer.h"
@@ -120,6 +121,7 @@ private:
     ui::BrowseForTexture texture_wanted_; ///< what the dialog is for
     unsigned new_contents_ = 0;           ///< the viewport's texture, when it was drawn into for this frame
     bool idle_ = false;                   ///< the last frame showed nothing new
+    PictureRest rest_;
     bool quit_ = false;
 };
 
