@@ -7,6 +7,7 @@
 
 #include "app/core/data_folder.h"
 #include "cli/experiment/experiment.h"
+#include "cli/finite.h"
 #include "experiments/page.h"
 #include "scene/fields.h"
 #include "scene/io.h"
@@ -24,7 +25,7 @@ void add_run(CLI::App& app, RunArguments& a, int& status) {
     auto* frames =
         run->add_option("--frames", a.frames, "Frames to simulate (default: 90)")->check(CLI::NonNegativeNumber);
     run->add_option("--seconds", a.seconds, "Simulated seconds instead, rounded up to a whole frame")
-        ->check(CLI::NonNegativeNumber)
+        ->check(finite_non_negative)
         ->excludes(frames);
     run->add_option(
            "--threads", a.threads,
@@ -95,7 +96,8 @@ void add_render(CLI::App& app, RenderArguments& a, std::string& size, const GuiC
             "--fps", a.fps,
             "Pictures per second of a film (default: about 30). Without --every as near to it as whole frames at "
             "the scene's own pace allow")
-        ->check(CLI::Range(0.1, 1000.0));
+        ->check(CLI::Range(0.1, 1000.0))
+        ->check(finite);
     render
         ->add_option("-o,--output", a.output,
                      "FILE.png; NAME-%04d.png for a sequence, with the numbers 0, 1, 2 ...; FILE.mp4 for a film")

@@ -151,6 +151,14 @@ std::uint32_t bit(std::size_t line) {
     return std::uint32_t{1} << line;
 }
 
+/// Four digits, or fewer where it would be longer than eight characters.
+std::string short_number(double value) {
+    std::array<char, 32> text{};
+    if (std::snprintf(text.data(), text.size(), "%.4g", value) > 8)
+        std::snprintf(text.data(), text.size(), "%.*e", value < 0 ? 1 : 2, value);
+    return text.data();
+}
+
 /// Title, and each curve's colour and name with its value under the mouse, or else at the playhead; a click hides a
 /// curve.
 void legend(Lab& lab, CurveRow row, const FrameAxis& axis, float left, float right) {
@@ -165,12 +173,10 @@ void legend(Lab& lab, CurveRow row, const FrameAxis& axis, float left, float rig
     ImGui::Text("%s (%s)", r.title, r.unit);
     tooltip(r.help + std::string(" A click on a curve's name hides it."));
     for (std::size_t i = 0; i < r.lines.size(); ++i) {
-        char value[48] = "";
-        if (known)
-            std::snprintf(value, sizeof value, " %.4g", static_cast<double>(values[i]));
-        const std::string text = std::string(r.lines[i].name) + value;
+        const std::string value = known ? " " + short_number(static_cast<double>(values[i])) : std::string();
+        const std::string text = r.lines[i].name + value;
         // Room for any number, so that the names stay where they are.
-        const float width = font * 0.9f + ImGui::CalcTextSize(r.lines[i].name).x + ImGui::CalcTextSize(" -0.0000").x;
+        const float width = font * 0.9f + ImGui::CalcTextSize(r.lines[i].name).x + ImGui::CalcTextSize(" -0.00e+0").x;
         ImGui::SameLine(0, font * 0.5f);
         if (ImGui::GetCursorScreenPos().x + width > right) {
             ImGui::NewLine();

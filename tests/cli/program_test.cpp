@@ -247,3 +247,24 @@ TEST_CASE("A program without its GUI says so where one is needed", "[program]") 
     require_failure(1, {pinned2}, {"without its GUI"});
     require_failure(1, {"render", pinned2, "-o", "picture.png"}, {"without its GUI"});
 }
+
+TEST_CASE("Numbers that are none, infinite or out of range are refused with the option and the value", "[program]") {
+    const auto refused = [](const std::vector<std::string>& arguments, const std::string& why) {
+        const Finished finished = clothlab::test::clothlab(arguments);
+        INFO(finished.err);
+        REQUIRE(finished.status == 2);
+        REQUIRE(finished.out.empty());
+        REQUIRE(finished.err.find(why) != std::string::npos);
+    };
+    for (const char* value : {"nan", "inf", "-inf", "-1", "1e999"}) {
+        const std::string said = "'" + std::string(value) + "' is not a number ";
+        refused({"run", "chain", "--seconds", value}, "--seconds: " + said + "from zero on");
+        refused({"experiment", "sweep", "chain", "--seconds", value}, "--seconds: " + said + "from zero on");
+        refused({"experiment", "accuracy", "chain", "--budget", value}, "--budget: " + said + "above zero");
+        refused({"experiment", "needs", "chain", "--tolerance", value}, "--tolerance: " + said + "above zero");
+    }
+    refused({"run", "chain", "--seconds", "1e300"}, "too long a run");
+    for (const char* option : {"--precision", "--from", "--to"})
+        refused({"experiment", "stability", "chain", "--bisect", "dt", option, "nan"}, "'nan' is not a finite number");
+    refused({"render", "chain", "-o", "x.mp4", "--fps", "nan"}, "'nan' is not a finite number");
+}

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/experiment/experiment.h"
+#include "cli/finite.h"
 #include "experiments/accuracy/accuracy.h"
 #include "scene/error.h"
 
@@ -84,7 +85,7 @@ void add_accuracy(CLI::App& experiment, const GuiCommands& gui, int& status) {
     add_scene(*accuracy, a.scene, true);
     accuracy
         ->add_option("--seconds", a.config.seconds, "Simulated seconds after which shapes are compared (default: 0.5)")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_positive);
     std::vector<std::string> methods, names;
     for (const sim::IntegratorInfo& method : sim::integrators())
         methods.emplace_back(method.name);
@@ -113,7 +114,7 @@ void add_accuracy(CLI::App& experiment, const GuiCommands& gui, int& status) {
                      "Errors within which the cheapest run is named, in the quantity's unit, separated by commas "
                      "(default: 10,1,0.1,0.01)")
         ->delimiter(',')
-        ->check(CLI::PositiveNumber);
+        ->check(finite_positive);
     accuracy
         ->add_option("--rounds", a.config.rounds,
                      "Rounds in which all runs are timed by turns (default: 3); 0: no times")
@@ -122,7 +123,7 @@ void add_accuracy(CLI::App& experiment, const GuiCommands& gui, int& status) {
         ->add_option("--budget", a.config.budget,
                      "Seconds of processor time that one run to the end may take; what would take longer is left out "
                      "(default: 2)")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_positive);
     add_output(*accuracy, a.output);
     accuracy->final_callback([arguments, &gui, &status] { status = run(*arguments, gui); });
 }

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/experiment/experiment.h"
+#include "cli/finite.h"
 #include "scene/frames.h"
 #include "scene/io.h"
 #include "scene/whole_file.h"
@@ -61,7 +62,7 @@ void add_needs(CLI::App& experiment, const GuiCommands& gui, int& status) {
     auto* app = experiment.add_subcommand("needs", "Find the cheapest model that is good enough for a scene");
     add_scene(*app, a->scene, true);
     app->add_option("--seconds", a->seconds, "Simulated seconds, rounded up to a whole frame (default: 1)")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_positive);
     std::vector<std::string> names;
     for (const experiments::needs::QuantityInfo& quantity : experiments::needs::quantities())
         names.emplace_back(quantity.name);
@@ -71,7 +72,7 @@ void add_needs(CLI::App& experiment, const GuiCommands& gui, int& status) {
            "rms), drape height (mm), sag of the mean height (mm), first-contact with a collider (ms), energy (J)")
         ->check(CLI::IsMember(names));
     app->add_option("--tolerance", a->tolerance, "By how much, in the quantity's unit: mm, ms or J (default: 1)")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_positive);
     app->add_flag("--at-end", a->at_end, "Compare at the end only, not over time");
     app->add_option("--threads", a->threads, "Threads that each run may use (default: 1)")->check(CLI::Range(1, 1024));
     app->add_option("--keep", a->kept,

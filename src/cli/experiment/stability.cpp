@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cli/experiment/experiment.h"
+#include "cli/finite.h"
 #include "experiments/run_parallel.h"
 #include "experiments/stability/bisection.h"
 #include "experiments/stability/map.h"
@@ -83,17 +84,18 @@ void add_stability(CLI::App& experiment, const GuiCommands& gui, int& status) {
                     "Instead of a map, find the limit along this key, in the key's unit; damping and grid too")
         ->excludes(x)
         ->excludes(y);
-    app->add_option("--from", a.from, "Where --bisect begins (default: as predicted)");
-    app->add_option("--to", a.to, "Where --bisect ends (default: as predicted)");
+    app->add_option("--from", a.from, "Where --bisect begins (default: as predicted)")->check(finite);
+    app->add_option("--to", a.to, "Where --bisect ends (default: as predicted)")->check(finite);
     app->add_option("--precision", a.precision,
                     "How exact --bisect is, in percent of the value (default: 0.1); whole numbers are found to 1")
-        ->check(CLI::Range(1e-6, 50.0));
+        ->check(CLI::Range(1e-6, 50.0))
+        ->check(finite);
     auto* frames = app->add_option("--frames", a.frames,
                                    "Frames after which a run without trouble is stable (default: those of 1 s, and of "
                                    "3000 steps)")
                        ->check(CLI::PositiveNumber);
     app->add_option("--seconds", a.seconds, "Simulated seconds instead, rounded up to a whole frame")
-        ->check(CLI::PositiveNumber)
+        ->check(finite_positive)
         ->excludes(frames);
     app->add_option("--threads", a.threads,
                     "Runs at the same time (default: one for each core). The result is the same for any number")

@@ -14,6 +14,7 @@
 #include "cli/experiment/sweep_journal.h"
 #include "cli/experiment/sweep_pictures.h"
 #include "cli/experiment/sweep_workers.h"
+#include "cli/finite.h"
 #include "experiments/sweep/file.h"
 #include "scene/io.h"
 #include "scene/whole_file.h"
@@ -288,7 +289,7 @@ void add_sweep(CLI::App& experiment, const GuiCommands& gui, int& status) {
     auto* frames =
         sweep->add_option("--frames", a.frames, "Frames of each run (default: 90)")->check(CLI::NonNegativeNumber);
     sweep->add_option("--seconds", a.seconds, "Simulated seconds of each run instead, rounded up to a whole frame")
-        ->check(CLI::NonNegativeNumber)
+        ->check(finite_non_negative)
         ->excludes(frames);
     add_output(*sweep, a.output);
     sweep->add_flag("--fresh", a.fresh,
