@@ -56,7 +56,7 @@ TEST_CASE("experiment needs refuses what has no answer with status 2 and a sente
         {{"--quantity", "first-contact"}, "no first contact"},
         {{"--quantity", "beauty"}, "--quantity"},
         {{"--tolerance", "0"}, "--tolerance"},
-        {{"--tolerance", "nan"}, "above 0"},
+        {{"--tolerance", "nan"}, "above zero"},
         {{"--tolerance", "1e-12"}, "chaotic"},
         {{"--keep", "cloth.kss"}, "did you mean cloth.ks"},
         {{"--save", (folder / "none" / "preset.json").string()}, "cannot be written"}};
