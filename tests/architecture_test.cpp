@@ -38,8 +38,8 @@ const std::vector<Layer>& layers() {
         {"app/", {"app/", "ui/", "render/", "experiments/", "timeline/", "scene/", "sim/"}, gui},
         {"cli/gui/", {"cli/", "app/", "ui/", "render/", "experiments/", "timeline/", "scene/", "sim/"}, gui},
         {"cli/",
-         {"cli/command_line.h", "cli/experiment/", "cli/progress_bar.h", "app/core/", "experiments/", "timeline/",
-          "scene/", "sim/"},
+         {"cli/command_line.h", "cli/experiment/", "cli/finite.h", "cli/progress_bar.h", "app/core/", "experiments/",
+          "timeline/", "scene/", "sim/"},
          {"CLI/", "nlohmann/", "fcntl.h", "spawn.h", "sys/", "unistd.h"}},
         {"main.cpp", {"cli/"}, {}},
     };
