@@ -24,7 +24,7 @@ constexpr int least_bucket_bits = 10;
 constexpr double dense_share = 0.1;
 /// Where most points are to be sorted, all are for some steps, without asking which, and for twice as many every next
 /// time.
-constexpr int least_without = 32, most_without = 512;
+constexpr int least_without_blocks = 32, most_without_blocks = 512;
 
 int bucket_bits(std::size_t points) {
     return std::countr_zero(std::bit_ceil(std::max<std::size_t>(points / points_per_bucket, 1)));
@@ -69,7 +69,7 @@ PointSpans points_to_sort(const Model<Real>& model, const Vec3Array<Real>& posit
         s.without_blocks_next = 0;
         return s.blocks.points();
     }
-    s.without_blocks_next = std::clamp(2 * s.without_blocks_next, least_without, most_without);
+    s.without_blocks_next = std::clamp(2 * s.without_blocks_next, least_without_blocks, most_without_blocks);
     s.without_blocks = s.without_blocks_next;
     return every_point;
 }
