@@ -52,8 +52,8 @@ std::size_t memory_bytes(const Workspace<Real>& work) {
                         s.cell.bytes() + bytes_of(s.lists.first) + bytes_of(s.lists.next) + s.anchor.bytes() +
                         bytes_of(s.far_pairs) + bytes_of(s.pairs) + bytes_of(s.cursor) + bytes_of(s.active) +
                         bytes_of(s.partners) + bytes_of(s.key) + bytes_of(s.order) + bytes_of(s.cell_end) +
-                        bytes_of(s.sorted) + bytes_of(s.run_end) + bytes_of(s.buckets) + s.tree.bytes() + s.blocks.bytes() +
-                        work.bands.bytes() + work.slabs.bytes();
+                        bytes_of(s.sorted) + bytes_of(s.run_end) + bytes_of(s.buckets) + s.tree.bytes() +
+                        s.blocks.bytes() + work.bands.bytes() + work.slabs.bytes();
     for (const Vec3Array<Real>& array : work.arrays)
         bytes += array.bytes();
     for (const AlignedVector<Real>& scratch : work.sweep)
