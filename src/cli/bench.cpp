@@ -72,6 +72,8 @@ Json json_of(const BenchGroup& group, const BenchRow& row) {
             {"kernel", row.kernel},
             {"threads", row.threads},
             {"rounds", row.rounds},
+            {"rounds_alone", row.alone},
+            {"disturbed", row.disturbed},
             {"steps_per_round", row.steps},
             {"step_us", json_of(row.step)},
             {"spread_percent", row.step.spread() * 100},
@@ -105,6 +107,7 @@ Json json_of(const BenchTable& table) {
                            {"value", figure.value},
                            {"fastest_rounds", figure.fastest},
                            {"unit", figure.unit},
+                           {"disturbed", figure.disturbed},
                            {"at_least", json_of(figure.at_least)},
                            {"at_most", json_of(figure.at_most)},
                            {"aim", json_of(figure.aim)}});
@@ -164,9 +167,9 @@ void print(const BenchGroup& group) {
         const auto us = [](const Measured& seconds) { return text("%.1f", seconds.median * 1e6); };
         const auto stage = [&](sim::Stage s) { return us(row.stages[static_cast<std::size_t>(s)]); };
         std::cout << cells({row.kernel, name_of(row.precision), std::to_string(row.threads), us(row.step),
-                            text("%.0f", row.step.spread() * 50), text("%.1f", row.speedup), us(row.forces_and_verlet),
-                            text("%.1f", row.forces_speedup), stage(sim::Stage::self_collision),
-                            stage(sim::Stage::colliders), stage(sim::Stage::limit),
+                            text("%.0f%s", row.step.spread() * 50, row.disturbed ? "*" : ""), text("%.1f", row.speedup),
+                            us(row.forces_and_verlet), text("%.1f", row.forces_speedup),
+                            stage(sim::Stage::self_collision), stage(sim::Stage::colliders), stage(sim::Stage::limit),
                             row.cycles_per_spring ? text("%.2f", *row.cycles_per_spring) : "-",
                             text("%.1f", row.ns_per_point), text("%.0f", row.bytes_per_point),
                             text("%.1f", row.fma_share * 100), text("%.1f", row.bandwidth_share * 100)})
@@ -225,8 +228,25 @@ void print_summary(const BenchTable& table) {
         if (figure.aim)
             wanted += text(", aim %g", *figure.aim);
         std::cout << text("%-83s", figure.name.c_str()) << number(figure.value) << number(figure.fastest)
-                  << text(" %s%s\n", figure.unit.c_str(), wanted.c_str());
+                  << text(" %s%s%s\n", figure.unit.c_str(), figure.disturbed ? "*" : "", wanted.c_str());
     }
+}
+
+/// How many of the rounds count.
+void print_rounds(const BenchTable& table) {
+    int rounds = 0, alone = 0;
+    bool disturbed = false;
+    for (const BenchGroup& group : table.groups) {
+        for (const BenchRow& row : group.rows) {
+            rounds += row.rounds;
+            alone += row.alone;
+            disturbed |= row.disturbed;
+        }
+    }
+    std::cout << text("\nIn %d of %d rounds other work shared the cores, as an integer loop before and after noticed: "
+                      "they do not count%s.\n",
+                      rounds - alone, rounds,
+                      disturbed ? ",\nbut, marked *, where too few are left, the best of them" : "");
 }
 
 /// Says so when times mean little, since other work took cores away from them.
@@ -276,6 +296,7 @@ int bench(const BenchArguments& arguments) {
     print(table.machine);
     for (const BenchGroup& group : table.groups)
         print(group);
+    print_rounds(table);
     print_growth(table);
     print_summary(table);
     return 0;

@@ -4,6 +4,8 @@
 
 #include <hwy/cache_control.h>
 
+#include "sim/processor.h"
+
 namespace clothlab::sim {
 namespace {
 
@@ -37,6 +39,7 @@ ThreadPool::~ThreadPool() {
 
 void ThreadPool::start(int count, Call call) {
     call_ = call;
+    callers_processor_ = current_processor();
     unfinished_.store(count - 1, std::memory_order_relaxed);
     const std::uint64_t number = (ticket_.load(std::memory_order_relaxed) >> count_bits) + 1;
     ticket_.store((number << count_bits) | static_cast<std::uint64_t>(count));
@@ -60,6 +63,8 @@ void ThreadPool::work(int index) {
         // A ticket that is not for this thread may be replaced by the next at any time: nothing else may be read then.
         if (static_cast<std::uint64_t>(index) >= count)
             continue;
+        if (const int here = current_processor(); here == callers_processor_)
+            leave_processor(here);
         call_(task_.data(), index);
         if (unfinished_.fetch_sub(1, std::memory_order_acq_rel) == 1)
             unfinished_.notify_one();

@@ -58,6 +58,7 @@ private:
     alignas(64) std::atomic<std::uint64_t> ticket_{0}; ///< a running number, and how many threads it is for
     alignas(64) std::array<std::byte, task_room> task_{};
     Call call_ = nullptr;
+    int callers_processor_ = -1; ///< workers that find themselves there move away: they are to work at the same time
     alignas(64) std::atomic<int> unfinished_{0};
     alignas(64) std::vector<std::thread> workers_;
 };

@@ -36,7 +36,9 @@ void require_consistent(const Measured& m) {
 
 void require_consistent(const BenchGroup& group, const BenchRow& row) {
     INFO(group.name << " " << group.n << " " << row.kernel << " " << row.threads);
-    REQUIRE(row.rounds % 2 == 1);
+    REQUIRE(row.rounds >= 3);
+    REQUIRE(row.alone <= row.rounds);
+    REQUIRE(row.disturbed == (row.alone < 1));
     REQUIRE(row.steps >= 3);
     require_consistent(row.step);
     require_consistent(row.forces_and_verlet);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <regex>
 
 #include "experiments/bench/cases.h"
 #include "experiments/bench/contestant.h"
+#include "experiments/bench/core_witness.h"
 #include "experiments/bench/textbook.h"
 #include "sim/execution.h"
 
@@ -39,6 +41,7 @@ constexpr int least_steps = 3;
 struct Run {
     BenchRow row;
     std::unique_ptr<Contestant> contestant;
+    std::vector<double> cores;                   ///< of each round: the worse of what the witness saw before and after
     std::vector<double> step, forces_and_verlet; ///< s, of each round
     std::array<std::vector<double>, sim::stage_count> stages;
 };
@@ -84,8 +87,9 @@ double warmed_up(Contestant& contestant) {
 }
 
 /// One contestant's turn in a round.
-void take_turn(Run& run, const Moment& moment, int steps, double points) {
+void take_turn(Run& run, const Moment& moment, int steps, double points, CoreWitness& witness) {
     Contestant& contestant = *run.contestant;
+    const double cores_before = witness.ask(run.row.threads);
     contestant.start_from(moment);
     const double warm_step = warmed_up(contestant);
     if (run.row.steps > 0)
@@ -97,6 +101,7 @@ void take_turn(Run& run, const Moment& moment, int steps, double points) {
     const Clock::time_point start = Clock::now();
     const sim::StepCounts sum = contestant.advance(steps);
     run.step.push_back(seconds_since(start) / steps);
+    run.cores.push_back(std::min(cores_before, witness.ask(run.row.threads)));
     const auto stage = [&](sim::Stage s) { return contestant.stage_seconds()[static_cast<std::size_t>(s)] / steps; };
     run.forces_and_verlet.push_back(stage(sim::Stage::forces) + stage(sim::Stage::integrate));
     for (std::size_t i = 0; i < run.stages.size(); ++i)
@@ -113,14 +118,35 @@ int passes(bool quick) {
     return quick ? 1 : 3;
 }
 
-/// The rounds of a pass: until the time is used up, an odd number of them.
-void take_rounds(std::vector<Run>& runs, const Moment& moment, int steps, double points, bool quick) {
+/// Of which rounds, from the first on, no thread shared its core.
+std::vector<std::size_t> rounds_alone(const Run& run, const CoreWitness& witness, std::size_t first = 0) {
+    std::vector<std::size_t> alone;
+    for (std::size_t round = first; round < run.cores.size(); ++round)
+        if (witness.alone(run.cores[round], run.row.threads))
+            alone.push_back(round);
+    return alone;
+}
+
+/// The rounds of a pass: until the time is used up, an odd number of them. Then runs that were alone on their cores in
+/// fewer than two have more turns, as many as there is time for in a slot.
+void take_rounds(std::vector<Run>& runs, const Moment& moment, int steps, double points, bool quick,
+                 CoreWitness& witness) {
     const double budget = quick ? 0.5 : 1; // s
     const int least = quick ? 3 : 1, most = 5;
     const Clock::time_point start = Clock::now();
-    for (int round = 0; round < most && (round < least || round % 2 == 0 || seconds_since(start) < budget); ++round)
+    int rounds = 0;
+    for (; rounds < most && (rounds < least || rounds % 2 == 0 || seconds_since(start) < budget); ++rounds)
         for (Run& run : runs)
-            take_turn(run, moment, steps, points);
+            take_turn(run, moment, steps, points, witness);
+    for (Run& run : runs) {
+        const std::size_t first = run.cores.size() - static_cast<std::size_t>(rounds);
+        const Clock::time_point more = Clock::now();
+        for (double turn = 0; rounds_alone(run, witness, first).size() < 2 && seconds_since(more) + turn < slot;) {
+            const Clock::time_point its_start = Clock::now();
+            take_turn(run, moment, steps, points, witness);
+            turn = seconds_since(its_start);
+        }
+    }
 }
 
 /// The runs of a case that the filter wants, after the textbook's and the handout's; none at all where it wants
@@ -205,24 +231,46 @@ void begin(WantedCase& wanted) {
     group.points_per_cell = points_per_cell(description, wanted.moment);
 }
 
-void take_pass(WantedCase& wanted, bool quick) {
+void take_pass(WantedCase& wanted, bool quick, CoreWitness& witness) {
     create_contestants(wanted.runs, wanted.which->description);
     const auto points = static_cast<double>(wanted.group.points);
-    take_rounds(wanted.runs, wanted.moment, steps_of_round(wanted.group.points, quick), points, quick);
+    take_rounds(wanted.runs, wanted.moment, steps_of_round(wanted.group.points, quick), points, quick, witness);
     for (Run& run : wanted.runs) {
         run.row.bytes_per_point = static_cast<double>(run.contestant->memory_bytes()) / points;
         run.contestant.reset(); // all cases' at once would not fit into every memory
     }
 }
 
-void finish(WantedCase& wanted) {
+/// The rounds in which the witness saw the most work done.
+std::vector<std::size_t> least_disturbed(const std::vector<double>& cores, std::size_t count) {
+    std::vector<std::size_t> rounds(cores.size());
+    std::iota(rounds.begin(), rounds.end(), std::size_t{0});
+    std::stable_sort(rounds.begin(), rounds.end(),
+                     [&](std::size_t one, std::size_t other) { return cores[one] > cores[other]; });
+    rounds.resize(count);
+    return rounds;
+}
+
+void finish(WantedCase& wanted, bool quick, const CoreWitness& witness) {
     for (Run& run : wanted.runs) {
         BenchRow& row = run.row;
+        std::vector<std::size_t> counting = rounds_alone(run, witness);
         row.rounds = static_cast<int>(run.step.size());
-        row.step = measured(run.step);
-        row.forces_and_verlet = measured(run.forces_and_verlet);
+        row.alone = static_cast<int>(counting.size());
+        const auto enough = static_cast<std::size_t>(std::min(passes(quick), row.rounds));
+        row.disturbed = counting.size() < enough;
+        if (row.disturbed)
+            counting = least_disturbed(run.cores, enough);
+        const auto of_rounds = [&](const std::vector<double>& values) {
+            std::vector<double> counted;
+            for (const std::size_t round : counting)
+                counted.push_back(values[round]);
+            return measured(counted);
+        };
+        row.step = of_rounds(run.step);
+        row.forces_and_verlet = of_rounds(run.forces_and_verlet);
         for (std::size_t i = 0; i < row.stages.size(); ++i)
-            row.stages[i] = measured(run.stages[i]);
+            row.stages[i] = of_rounds(run.stages[i]);
         wanted.group.rows.push_back(row);
     }
 }
@@ -291,6 +339,10 @@ BenchTable run_bench(const BenchConfig& config) {
     std::sort(threads.begin(), threads.end());
     threads.erase(std::unique(threads.begin(), threads.end()), threads.end());
     table.machine = measure_machine(threads);
+    CoreWitness witness;
+    for (const int count : threads)
+        for (int n = 0; n < 8; ++n)
+            witness.ask(count); // so that it has seen the best
     const sim::InstructionSet best = sim::resolve(sim::InstructionSet::automatic);
     for (const sim::InstructionSetInfo& set : sim::instruction_sets())
         if (set.id == best)
@@ -305,7 +357,7 @@ BenchTable run_bench(const BenchConfig& config) {
                    std::to_string(turns));
             if (pass == 0)
                 begin(one);
-            take_pass(one, config.quick);
+            take_pass(one, config.quick, witness);
         }
         if (!config.quick) {
             report("measuring the machine once more");
@@ -313,7 +365,7 @@ BenchTable run_bench(const BenchConfig& config) {
         }
     }
     for (WantedCase& one : wanted) {
-        finish(one);
+        finish(one, config.quick, witness);
         table.groups.push_back(std::move(one.group));
     }
     for (std::size_t i = 0; i < table.groups.size(); ++i) {

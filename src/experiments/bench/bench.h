@@ -46,8 +46,10 @@ struct BenchRow {
     sim::Precision precision = sim::Precision::double_precision;
     int threads = 1;
     int rounds = 0, steps = 0; ///< steps per round
+    int alone = 0;             ///< rounds in which no thread shared its core: only these count
+    bool disturbed = false;    ///< they are fewer than three (one, if quick): those least disturbed count
 
-    Measured step; ///< seconds per step over the rounds, as all that follow: all stages and what is between them
+    Measured step; ///< seconds per step over the rounds that count, as all that follow: all stages and what is between
     Measured forces_and_verlet;
     std::array<Measured, sim::stage_count> stages;
 
@@ -89,6 +91,7 @@ struct BenchFigure {
     double value = 0;
     double fastest = 0; ///< the same of the fastest round instead of the median one: other work disturbs it least
     std::string unit;
+    bool disturbed = false; ///< one of the runs that this is about was
     std::optional<double> at_least = {}, at_most = {}, aim = {};
 };
 

@@ -83,8 +83,6 @@ HWY_AFTER_NAMESPACE();
 
 #include <algorithm>
 #include <array>
-#include <barrier>
-#include <chrono>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -92,6 +90,7 @@ HWY_AFTER_NAMESPACE();
 #include <thread>
 
 #include "experiments/bench/machine_peak.h"
+#include "experiments/bench/rate.h"
 
 namespace clothlab::experiments {
 namespace {
@@ -100,46 +99,6 @@ HWY_EXPORT(multiply_add_single);
 HWY_EXPORT(multiply_add_double);
 HWY_EXPORT(scale_and_add);
 HWY_EXPORT(vectors);
-
-using Clock = std::chrono::steady_clock;
-
-/// The most work per second that threads get done together in some tries. A thread calls `prepare()` for what it works
-/// on, once, and then what it got for each try; that returns the amount of work done.
-double best_rate(int threads, int tries, const std::function<std::function<double()>()>& prepare) {
-    struct Try {
-        Clock::time_point start, end;
-        double work = 0;
-    };
-    std::vector<std::vector<Try>> all(static_cast<std::size_t>(threads),
-                                      std::vector<Try>(static_cast<std::size_t>(tries)));
-    std::barrier together(threads);
-    const auto run = [&](std::vector<Try>& own) {
-        const std::function<double()> work = prepare();
-        for (Try& t : own) {
-            together.arrive_and_wait();
-            t.start = Clock::now();
-            t.work = work();
-            t.end = Clock::now();
-        }
-    };
-    {
-        std::vector<std::jthread> others;
-        for (std::size_t i = 1; i < all.size(); ++i)
-            others.emplace_back([&run, &own = all[i]] { run(own); });
-        run(all.front());
-    }
-    double best = 0;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(tries); ++n) {
-        Try total = all.front()[n];
-        for (std::size_t i = 1; i < all.size(); ++i) {
-            total.start = std::min(total.start, all[i][n].start);
-            total.end = std::max(total.end, all[i][n].end);
-            total.work += all[i][n].work;
-        }
-        best = std::max(best, total.work / std::chrono::duration<double>(total.end - total.start).count());
-    }
-    return best;
-}
 
 template <class Real>
 double multiply_add_rate(int threads, double (*multiply_add)(std::size_t, Real*)) {
@@ -168,31 +127,6 @@ double bandwidth(int threads, std::size_t bytes) {
             return static_cast<double>(moved) * static_cast<double>(sweeps);
         };
     });
-}
-
-/// Additions per second, each of which needs the one before: one per cycle on every processor of today.
-double clock_rate() {
-#if defined(__GNUC__)
-    return best_rate(1, 8, [] {
-        return [] {
-            constexpr int rounds = 200'000, adds = 16;
-            unsigned long x = 1, step = 3;
-            asm volatile("" : "+r"(step)); // not a constant: some processors add constants in no time
-            for (int n = 0; n < rounds; ++n) {
-#define CLOTHLAB_ADD                                                                                                   \
-    x += step;                                                                                                         \
-    asm volatile("" : "+r"(x)); // the compiler must do each addition
-                CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD
-                    CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD CLOTHLAB_ADD
-                        CLOTHLAB_ADD
-#undef CLOTHLAB_ADD
-            }
-            return static_cast<double>(rounds) * adds;
-        };
-    });
-#else
-    return 0;
-#endif
 }
 
 /// The size in bytes of a data cache, as Linux tells; glibc's sysconf adds up the last caches of a whole package.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <initializer_list>
 
 #include "experiments/bench/bench.h"
 
@@ -31,20 +32,24 @@ public:
         const BenchGroup* g = group(name, n);
         return g ? g->find(table_.best_kernel, precision, threads) : nullptr;
     }
-    void add(BenchFigure figure) { figures_.push_back(std::move(figure)); }
+    /// A figure that follows from the times of these runs.
+    void add(std::initializer_list<const BenchRow*> runs, BenchFigure figure) {
+        figure.disturbed = std::any_of(runs.begin(), runs.end(), [](const BenchRow* run) { return run->disturbed; });
+        figures_.push_back(std::move(figure));
+    }
 
     void full_step(const std::string& name, sim::Precision precision) {
         const BenchRow* r = row(name, 50, precision, 1);
         if (!r)
             return;
         const auto add_one = [&](const char* baseline, double value, const BenchRow& to) {
-            add({.name = std::string("full step: ") + baseline + " to kernel, " + name + " 50 x 50, " +
-                         name_of(precision) + ", 1 thread",
-                 .value = value,
-                 .fastest = to.step.min / r->step.min,
-                 .unit = "x",
-                 .at_least = precision == single_precision ? 10 : 6,
-                 .aim = precision == single_precision ? std::optional(20.0) : std::nullopt});
+            add({r, &to}, {.name = std::string("full step: ") + baseline + " to kernel, " + name + " 50 x 50, " +
+                                   name_of(precision) + ", 1 thread",
+                           .value = value,
+                           .fastest = to.step.min / r->step.min,
+                           .unit = "x",
+                           .at_least = precision == single_precision ? 10 : 6,
+                           .aim = precision == single_precision ? std::optional(20.0) : std::nullopt});
         };
         add_one(textbook_name, r->speedup, group(name, 50)->textbook());
         if (r->handout_speedup)
@@ -57,12 +62,14 @@ public:
                 continue;
             const std::string which = std::string(", ") + name + " 50 x 50, single, " + on_threads(threads);
             const double fastest = r->forces_and_verlet.min;
-            add({.name = "forces + Verlet: textbook to kernel" + which,
+            add({r, &group(name, 50)->textbook()},
+                {.name = "forces + Verlet: textbook to kernel" + which,
                  .value = r->forces_speedup,
                  .fastest = group(name, 50)->textbook().forces_and_verlet.min / fastest,
                  .unit = "x"});
             if (r->forces_to_full_step)
-                add({.name = "textbook's full step to kernel's forces + Verlet" + which,
+                add({r, &group("pinned", 50)->textbook()},
+                    {.name = "textbook's full step to kernel's forces + Verlet" + which,
                      .value = *r->forces_to_full_step,
                      .fastest = group("pinned", 50)->textbook().step.min / fastest,
                      .unit = "x"});
@@ -70,7 +77,8 @@ public:
             // the points have to go over to the second thread and back.
             const bool alone = std::string(name) == "springs";
             if (r->forces_to_handout)
-                add({.name = "handout's full step to kernel's forces + Verlet" + which,
+                add({r, group("pinned", 50)->handout()},
+                    {.name = "handout's full step to kernel's forces + Verlet" + which,
                      .value = *r->forces_to_handout,
                      .fastest = group("pinned", 50)->handout()->step.min / fastest,
                      .unit = "x",
@@ -81,32 +89,32 @@ public:
     }
     void steps(const std::string& name, int n, int threads, bool real_time) {
         if (const BenchRow* r = row(name, n, single_precision, threads))
-            add({.name =
-                     name + " " + std::to_string(n) + " x " + std::to_string(n) + ", single, " + on_threads(threads),
-                 .value = r->steps_per_s(),
-                 .fastest = 1 / r->step.min,
-                 .unit = "steps/s",
-                 .at_least = real_time ? std::optional(group(name, n)->steps_per_second) : std::nullopt});
+            add({r}, {.name = name + " " + std::to_string(n) + " x " + std::to_string(n) + ", single, " +
+                              on_threads(threads),
+                      .value = r->steps_per_s(),
+                      .fastest = 1 / r->step.min,
+                      .unit = "steps/s",
+                      .at_least = real_time ? std::optional(group(name, n)->steps_per_second) : std::nullopt});
     }
     /// The sweep's share of what the machine could do if it did nothing but fused multiply-adds.
     void share_of_peak(int n, int threads) {
         if (const BenchRow* r = row("springs", n, single_precision, threads))
-            add({.name = "forces + Verlet: share of the peak, springs " + std::to_string(n) + " x " +
-                         std::to_string(n) + ", single, " + on_threads(threads),
-                 .value = 100 * r->fma_share,
-                 .fastest = 100 * r->fma_share * r->forces_and_verlet.median / r->forces_and_verlet.min,
-                 .unit = "%",
-                 .at_least = threads <= 2 ? std::optional(45.0) : std::nullopt});
+            add({r}, {.name = "forces + Verlet: share of the peak, springs " + std::to_string(n) + " x " +
+                              std::to_string(n) + ", single, " + on_threads(threads),
+                      .value = 100 * r->fma_share,
+                      .fastest = 100 * r->fma_share * r->forces_and_verlet.median / r->forces_and_verlet.min,
+                      .unit = "%",
+                      .at_least = threads <= 2 ? std::optional(45.0) : std::nullopt});
     }
     void growth(const std::string& name, sim::Precision precision, int threads) {
         const BenchRow *small = row(name, 50, precision, threads), *large = row(name, 512, precision, threads);
         if (small && large)
-            add({.name = "time per point: 512 x 512 to 50 x 50, " + name + ", " + name_of(precision) + ", " +
-                         on_threads(threads),
-                 .value = large->ns_per_point / small->ns_per_point,
-                 .fastest = large->step.min / (512.0 * 512.0) / (small->step.min / (50.0 * 50.0)),
-                 .unit = "x",
-                 .at_most = 1.5});
+            add({small, large}, {.name = "time per point: 512 x 512 to 50 x 50, " + name + ", " + name_of(precision) +
+                                         ", " + on_threads(threads),
+                                 .value = large->ns_per_point / small->ns_per_point,
+                                 .fastest = large->step.min / (512.0 * 512.0) / (small->step.min / (50.0 * 50.0)),
+                                 .unit = "x",
+                                 .at_most = 1.5});
     }
     std::vector<BenchFigure> take() { return std::move(figures_); }
 
