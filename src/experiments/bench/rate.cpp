@@ -1,7 +1,7 @@
 #include "experiments/bench/rate.h"
 
 #include <algorithm>
-#include <barrier>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <thread>
@@ -42,6 +42,24 @@ double additions(int threads, int tries, int rounds) {
 #endif
 }
 
+/// Where threads wait for each other without going to sleep: who is woken up is put on the processor of the one who
+/// wakes it, now and then, and stays there for some milliseconds.
+class Gate {
+public:
+    explicit Gate(int threads) : threads_(threads) {}
+    /// Returns when all threads have come for the nth time, n from 1 on.
+    void pass(int n) {
+        arrived_.fetch_add(1, std::memory_order_acq_rel);
+        for (int i = 0; arrived_.load(std::memory_order_acquire) < n * threads_; ++i)
+            if (i > 1000)
+                std::this_thread::yield(); // more threads than processors
+    }
+
+private:
+    int threads_;
+    std::atomic<int> arrived_ = 0;
+};
+
 } // namespace
 
 double best_rate(int threads, int tries, const std::function<std::function<double()>()>& prepare) {
@@ -51,11 +69,12 @@ double best_rate(int threads, int tries, const std::function<std::function<doubl
     };
     std::vector<std::vector<Try>> all(static_cast<std::size_t>(threads),
                                       std::vector<Try>(static_cast<std::size_t>(tries)));
-    std::barrier together(threads);
+    Gate together(threads);
     const auto run = [&](std::vector<Try>& own) {
         const std::function<double()> work = prepare();
+        int number = 0;
         for (Try& t : own) {
-            together.arrive_and_wait();
+            together.pass(++number);
             t.start = Clock::now();
             t.work = work();
             t.end = Clock::now();
