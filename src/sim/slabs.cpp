@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <thread>
 #include <utility>
 
-#include <hwy/cache_control.h>
-
 #include "sim/forces/springs.h"
+#include "sim/spin.h"
 #include "sim/stage_timer.h"
 #include "sim/workspace.h"
 
@@ -53,15 +51,10 @@ Shares slab_shares(const Model<Real>& model, const Workspace<Real>& work) {
 
 /// Waits until a thread beside this one has sent so many messages. Returns whether it had not yet.
 bool await(const std::atomic<std::uint64_t>& sent, std::uint64_t number) {
-    if (sent.load(std::memory_order_acquire) >= number)
-        return false;
-    for (int i = 0; sent.load(std::memory_order_acquire) < number; ++i) {
-        if (i < spins_until_asleep)
-            hwy::Pause();
-        else
-            std::this_thread::yield(); // it may wait for this core
-    }
-    return true;
+    bool waited = false;
+    for (Spin spin; sent.load(std::memory_order_acquire) < number; spin.again())
+        waited = true;
+    return waited;
 }
 
 /// What the threads have in common.

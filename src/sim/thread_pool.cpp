@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <hwy/cache_control.h>
-
 #include "sim/processor.h"
+#include "sim/spin.h"
 
 namespace clothlab::sim {
 namespace {
@@ -14,13 +13,18 @@ constexpr std::uint64_t count_bits = 16, count_mask = (1u << count_bits) - 1, qu
 /// Waits until the value is another than `old`; returns it.
 template <class T>
 T await_change(const std::atomic<T>& value, T old) {
-    for (int i = 0; i < spins_until_asleep; ++i) {
+    Spin spin;
+    do {
         if (const T now = value.load(std::memory_order_acquire); now != old)
             return now;
-        hwy::Pause();
-    }
+    } while (spin.again());
     value.wait(old, std::memory_order_acquire);
     return value.load(std::memory_order_acquire);
+}
+
+void leave_if_on(int processor) {
+    if (current_processor() == processor)
+        leave_processor(processor);
 }
 
 } // namespace
@@ -51,6 +55,8 @@ bool ThreadPool::finish() {
     const bool others_were_last = left != 0;
     while (left != 0)
         left = await_change(unfinished_, left);
+    if (others_were_last)
+        leave_if_on(finishers_processor_.load(std::memory_order_relaxed));
     return others_were_last;
 }
 
@@ -63,9 +69,9 @@ void ThreadPool::work(int index) {
         // A ticket that is not for this thread may be replaced by the next at any time: nothing else may be read then.
         if (static_cast<std::uint64_t>(index) >= count)
             continue;
-        if (const int here = current_processor(); here == callers_processor_)
-            leave_processor(here);
+        leave_if_on(callers_processor_);
         call_(task_.data(), index);
+        finishers_processor_.store(current_processor(), std::memory_order_relaxed);
         if (unfinished_.fetch_sub(1, std::memory_order_acq_rel) == 1)
             unfinished_.notify_one();
     }

@@ -14,10 +14,6 @@
 
 namespace clothlab::sim {
 
-/// Who waits for another thread looks so many times, pausing: some fifty microseconds, as long as the stages that one
-/// thread does alone take in a small cloth. A sleeper takes about as long to wake.
-inline constexpr int spins_until_asleep = 4000;
-
 class ThreadPool {
 public:
     /// A pool of so many threads, the caller's own among them.
@@ -58,8 +54,11 @@ private:
     alignas(64) std::atomic<std::uint64_t> ticket_{0}; ///< a running number, and how many threads it is for
     alignas(64) std::array<std::byte, task_room> task_{};
     Call call_ = nullptr;
-    int callers_processor_ = -1; ///< workers that find themselves there move away: they are to work at the same time
+    // Who is woken up and finds itself on the processor of the one who woke it moves away: both are to work at the same
+    // time.
+    int callers_processor_ = -1;
     alignas(64) std::atomic<int> unfinished_{0};
+    std::atomic<int> finishers_processor_{-1}; ///< of the worker that was done last
     alignas(64) std::vector<std::thread> workers_;
 };
 

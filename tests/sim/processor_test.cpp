@@ -63,3 +63,25 @@ TEST_CASE("Threads that are woken up work beside the one that woke them, not on 
     }
     REQUIRE(beside > attempts * 3 / 4);
 }
+
+TEST_CASE("A thread that waited for another one and slept goes on beside it, not on its processor", "[threads]") {
+    if (usable_processors() < 2)
+        SKIP("there is no other processor");
+    ThreadPool pool(2);
+    constexpr int attempts = 100;
+    int beside = 0;
+    for (int n = 0; n < attempts; ++n) {
+        int workers = -1;
+        const auto task = [&workers](int index) {
+            if (index == 0)
+                return;
+            const auto start = std::chrono::steady_clock::now();
+            while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(1)) {
+            }
+            workers = current_processor();
+        };
+        pool.run(2, task);
+        beside += workers != current_processor() ? 1 : 0;
+    }
+    REQUIRE(beside > attempts * 3 / 4);
+}

@@ -22,9 +22,6 @@ constexpr int least_bucket_bits = 10;
 /// Buckets are gone through side by side where a larger share of all pairs of their points push each other. Below, it
 /// costs more to look at all pairs than to find those that do.
 constexpr double dense_share = 0.1;
-/// Where most points are to be sorted, all are for some steps, without asking which, and for twice as many every next
-/// time.
-constexpr int least_without_blocks = 32, most_without_blocks = 512;
 
 int bucket_bits(std::size_t points) {
     return std::countr_zero(std::bit_ceil(std::max<std::size_t>(points / points_per_bucket, 1)));
@@ -46,10 +43,8 @@ PointSpans points_to_sort(const Model<Real>& model, const Vec3Array<Real>& posit
     const PointSpans every_point{&all, 1, all.end};
     if (!s.blocks.usable())
         return every_point;
-    if (s.without_blocks > 0) {
-        --s.without_blocks;
+    if (s.blocks_rest.waits())
         return every_point;
-    }
     // Of the coordinates' bound only a guess is known before, as it is found with the rest.
     const double reach = reach_of(model, farthest_push(model), s.blocks_bound);
     constexpr double rounding = std::numeric_limits<Real>::epsilon();
@@ -66,11 +61,10 @@ PointSpans points_to_sort(const Model<Real>& model, const Vec3Array<Real>& posit
         return every_point;
     }
     if (finite && s.blocks.find(reach)) {
-        s.without_blocks_next = 0;
+        s.blocks_rest.pays();
         return s.blocks.points();
     }
-    s.without_blocks_next = std::clamp(2 * s.without_blocks_next, least_without_blocks, most_without_blocks);
-    s.without_blocks = s.without_blocks_next;
+    s.blocks_rest.leave(); // all points are sorted for some steps, without asking which
     return every_point;
 }
 
@@ -102,7 +96,7 @@ template <class Real>
 void prepare_cells(const Grid<Real>& grid, SelfCollisionWork<Real>& work) {
     const std::size_t points = grid.points();
     work.blocks.resize(static_cast<std::size_t>(grid.columns), static_cast<std::size_t>(grid.rows));
-    work.without_blocks = work.without_blocks_next = 0;
+    work.blocks_rest = {};
     work.dense = false;
     work.run_end.resize(points);
     work.buckets.resize((std::size_t{1} << bucket_bits(points)) + 1);

@@ -10,9 +10,8 @@ namespace {
 
 /// The list's skin as a multiple of the distance at which points touch: a wider one lasts longer and lists more pairs.
 constexpr double skin_share = 1;
-/// A list that does not last so many steps costs more than it saves; then it is left for some steps, and for twice as
-/// many every next time.
-constexpr int least_age = 6, least_without = 32, most_without = 512;
+/// A list that does not last so many steps costs more than it saves.
+constexpr int least_age = 6;
 /// Of the farthest that a point could be pushed: less is not worth telling apart.
 constexpr double least_push = 1.0 / 64;
 
@@ -208,8 +207,7 @@ double keep_near_pairs(const Model<Real>& model, const Vec3Array<Real>& position
 template <class Real>
 bool leave(SelfCollisionWork<Real>& s) {
     s.anchored = false;
-    s.without_list_next = std::clamp(2 * s.without_list_next, least_without, most_without);
-    s.without_list = s.without_list_next;
+    s.list_rests.leave();
     return false;
 }
 
@@ -230,10 +228,8 @@ double reach_of(const Model<Real>& model, double push, double coordinate_bound) 
 template <class Real>
 bool find_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Workspace<Real>& work) {
     SelfCollisionWork<Real>& s = work.self_collision;
-    if (s.without_list > 0) {
-        --s.without_list;
+    if (s.list_rests.waits())
         return false;
-    }
     // Most steps push no point nearly as far as one could be pushed, and so a smaller reach will do.
     const double farthest = farthest_push(model);
     s.push = std::min(s.push, farthest);
@@ -250,7 +246,7 @@ bool find_pairs(const Model<Real>& model, const Vec3Array<Real>& position, Works
             return leave(s);
         proximity.largest = 0;
     } else if (s.age == 4 * least_age) {
-        s.without_list_next = 0; // it pays
+        s.list_rests.pays();
     }
     const double bound = s.anchor_bound + proximity.largest;
     if (!(bound <= s.coordinate_bound)) { // the reach was too small for points so far out

@@ -78,7 +78,7 @@ void prepare_self_collision(const Model<Real>& model, Workspace<Real>& work) {
     const std::size_t points = model.grid->points();
     SelfCollisionWork<Real>& s = work.self_collision;
     s.anchored = false;
-    s.without_list = s.without_list_next = 0;
+    s.list_rests = {};
     if (model.rules.self_collision == SelfCollisionRule::triangles)
         return s.tree.resize(model.grid->columns, model.grid->rows);
     if (!work.kernels || model.rules.self_collision == SelfCollisionRule::neighbours) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/aligned.h"
+#include "sim/collision/back_off.h"
 #include "sim/collision/block_tree.h"
 #include "sim/collision/regular_blocks.h"
 #include "sim/kernels/kernels.h"
@@ -38,9 +39,8 @@ struct SelfCollisionWork {
     double coordinate_bound = 1;                           ///< m, no coordinate is expected to be larger
     double push = std::numeric_limits<double>::infinity(); ///< m, no point is expected to be pushed farther
     int age = 0;                                           ///< steps since the list was made
-    int without_list = 0;             ///< steps to be done without it, since it was too long or did not last
-    int without_list_next = 0;        ///< how many the next time
-    std::vector<PointPair> far_pairs; ///< the list: none that are neighbours in the grid
+    BackOff list_rests;                                    ///< since it was too long or did not last
+    std::vector<PointPair> far_pairs;                      ///< the list: none that are neighbours in the grid
 
     // Few contacts: pair by pair.
     std::vector<PointPair> pairs;        ///< room for those that may touch in this step
@@ -53,8 +53,7 @@ struct SelfCollisionWork {
     // cells of all points as whole numbers where their keys do not tell them apart.
     RegularBlocks<Real> blocks;           ///< which points are to be sorted
     double blocks_bound = 1;              ///< m, no coordinate is expected to be larger
-    int without_blocks = 0;               ///< steps to be done with all points, since nearly all were to be sorted
-    int without_blocks_next = 0;          ///< how many the next time
+    BackOff blocks_rest;                  ///< all points are sorted, since nearly all were to be
     AlignedVector<std::uint32_t> key;     ///< of each point's cell
     std::vector<std::uint32_t> order;     ///< points by cell
     std::vector<std::uint32_t> cell_end;  ///< per cell, or bucket of cells

@@ -218,7 +218,7 @@ TEMPLATE_TEST_CASE("Self-collision of folds in cloth that is otherwise smooth ha
         pushes += expected;
         for (Sheet<TestType>& sheet : others) {
             sheet.state = before;
-            sheet.work.self_collision.without_list = 1;
+            sheet.work.self_collision.list_rests.leave();
             REQUIRE(sim::resolve_self_collision(sheet.model, sheet.state, sheet.work) == expected);
             REQUIRE(sheet.state.position.x == plain.state.position.x);
             REQUIRE(sheet.state.position.y == plain.state.position.y);

@@ -165,7 +165,7 @@ TEST_CASE("Self-collision in cells, side by side or one by one, has the bits of 
     require_same_stages([](auto& sheet) {
         std::size_t pushes = 0;
         for (int i = 0; i < 3; ++i) {
-            sheet.work.self_collision.without_list = 1;
+            sheet.work.self_collision.list_rests.leave();
             sheet.work.self_collision.dense = i != 1;
             pushes += sim::resolve_self_collision(sheet.model, sheet.state, sheet.work);
         }
