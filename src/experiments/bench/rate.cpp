@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/processor.h"
+#include "sim/spin.h"
 
 namespace clothlab::experiments {
 namespace {
@@ -46,18 +47,27 @@ double additions(int threads, int tries, int rounds) {
 /// wakes it, now and then, and stays there for some milliseconds.
 class Gate {
 public:
-    explicit Gate(int threads) : threads_(threads) {}
-    /// Returns when all threads have come for the nth time, n from 1 on.
-    void pass(int n) {
-        arrived_.fetch_add(1, std::memory_order_acq_rel);
-        for (int i = 0; arrived_.load(std::memory_order_acquire) < n * threads_; ++i)
-            if (i > 1000)
-                std::this_thread::yield(); // more threads than processors
+    explicit Gate(std::size_t threads) : processors_(threads) {}
+    /// A thread's pass, its nth one, n from 1 on: returns when all have come, each on a processor of its own, if there
+    /// are enough.
+    void pass(std::size_t thread, std::size_t n) {
+        const int here = sim::current_processor();
+        processors_[thread].store(here, std::memory_order_relaxed);
+        wait_for_all(2 * n - 1);
+        const auto taken = [&](const std::atomic<int>& other) { return other.load(std::memory_order_relaxed) == here; };
+        if (std::any_of(processors_.begin(), processors_.begin() + static_cast<std::ptrdiff_t>(thread), taken))
+            sim::leave_processor(here);
+        wait_for_all(2 * n);
     }
 
 private:
-    int threads_;
-    std::atomic<int> arrived_ = 0;
+    void wait_for_all(std::size_t times) {
+        arrived_.fetch_add(1, std::memory_order_acq_rel);
+        for (sim::Spin spin; arrived_.load(std::memory_order_acquire) < times * processors_.size();)
+            spin.again();
+    }
+    std::vector<std::atomic<int>> processors_; ///< by thread
+    std::atomic<std::size_t> arrived_ = 0;
 };
 
 } // namespace
@@ -69,12 +79,12 @@ double best_rate(int threads, int tries, const std::function<std::function<doubl
     };
     std::vector<std::vector<Try>> all(static_cast<std::size_t>(threads),
                                       std::vector<Try>(static_cast<std::size_t>(tries)));
-    Gate together(threads);
-    const auto run = [&](std::vector<Try>& own) {
+    Gate together(all.size());
+    const auto run = [&](std::size_t thread) {
         const std::function<double()> work = prepare();
-        int number = 0;
-        for (Try& t : own) {
-            together.pass(++number);
+        for (std::size_t n = 0; n < all[thread].size(); ++n) {
+            Try& t = all[thread][n];
+            together.pass(thread, n + 1);
             t.start = Clock::now();
             t.work = work();
             t.end = Clock::now();
@@ -83,12 +93,8 @@ double best_rate(int threads, int tries, const std::function<std::function<doubl
     {
         std::vector<std::jthread> others;
         for (std::size_t i = 1; i < all.size(); ++i)
-            others.emplace_back([&run, &own = all[i], callers = sim::current_processor()] {
-                if (sim::current_processor() == callers)
-                    sim::leave_processor(callers);
-                run(own);
-            });
-        run(all.front());
+            others.emplace_back([&run, i] { run(i); });
+        run(0);
     }
     double best = 0;
     for (std::size_t n = 0; n < static_cast<std::size_t>(tries); ++n) {
