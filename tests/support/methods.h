@@ -85,6 +85,10 @@ inline const ExactMethod* exact(std::string_view name) {
     return nullptr;
 }
 
+inline const sim::IntegratorInfo& method_of(sim::IntegratorId id) {
+    return sim::integrators()[static_cast<std::size_t>(id)];
+}
+
 /// Makes a method compute as exactly as it can: no step control, solvers to the last digits.
 inline void solve_exactly(sim::Description& description, const sim::IntegratorInfo& method) {
     description.stepping.integrator = method.id;

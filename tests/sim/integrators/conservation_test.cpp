@@ -4,6 +4,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "sim/diagnostics.h"
+#include "support/methods.h"
 #include "support/oscillator.h"
 
 using namespace clothlab;
@@ -13,13 +14,9 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-const sim::IntegratorInfo& method(sim::IntegratorId id) {
-    return sim::integrators()[static_cast<std::size_t>(id)];
-}
-
 /// Smallest and largest total energy of an oscillation, over that at its start.
 std::pair<double, double> range_of_energy(sim::IntegratorId id, double y, int steps) {
-    Sheet<double> sheet(column(1, y, method(id)));
+    Sheet<double> sheet(column(1, y, method_of(id)));
     displace(sheet, 1, 0.2); // so little that no prediction of a method turns the spring round
     const double start = sim::diagnose(sheet.model, sheet.state).energy.total();
     double low = start, high = start;

@@ -34,10 +34,6 @@ sim::Description hung_cloth(int substeps, const sim::IntegratorInfo& method) {
     return description;
 }
 
-const sim::IntegratorInfo& method(sim::IntegratorId id) {
-    return sim::integrators()[static_cast<std::size_t>(id)];
-}
-
 /// Positions at the end; changed to `then` at half time.
 std::vector<sim::Vec3> end_of(const sim::Description& first, const sim::Description& then) {
     const auto simulation = sim::Simulation::create(first);
@@ -54,7 +50,7 @@ std::vector<sim::Vec3> end_of(const sim::Description& first, const sim::Descript
 
 double error(const sim::Description& first, const sim::Description& then) {
     static const std::vector<sim::Vec3> exact = [] {
-        const sim::Description description = hung_cloth(140, method(sim::IntegratorId::dormand_prince));
+        const sim::Description description = hung_cloth(140, method_of(sim::IntegratorId::dormand_prince));
         return end_of(description, description);
     }();
     const std::vector<sim::Vec3> positions = end_of(first, then);
@@ -85,7 +81,7 @@ TEST_CASE("Halving the step divides the error by two to the method's order") {
 
 TEST_CASE(
     "The course's start makes Verlet first order: from 2.7e-4 m the error falls to 2.1e-6 m with the physical one") {
-    sim::Description description = hung_cloth(30, method(sim::IntegratorId::course_verlet));
+    sim::Description description = hung_cloth(30, method_of(sim::IntegratorId::course_verlet));
     REQUIRE_THAT(error(description), WithinAbs(2.1e-6, 0.15e-6));
     description.rules.start = sim::StartRule::cs184;
     const double coarse = error(description);
@@ -100,7 +96,7 @@ TEST_CASE("A change of the method at half time keeps second order, to Verlet's w
         return;
     const bool from_verlet = GENERATE(false, true);
     const auto changed = [&](int substeps) {
-        const sim::Description verlet = hung_cloth(substeps, method(sim::IntegratorId::course_verlet));
+        const sim::Description verlet = hung_cloth(substeps, method_of(sim::IntegratorId::course_verlet));
         const sim::Description other = hung_cloth(substeps, info);
         return from_verlet ? error(verlet, other) : error(other, verlet);
     };
