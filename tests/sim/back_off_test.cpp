@@ -3,11 +3,11 @@
 
 #include <catch2/catch_test_macros.hpp>
 
-using namespace clothlab::sim;
+using namespace clothlab;
 
 namespace {
 
-int steps_without(BackOff& rests) {
+int steps_without(sim::BackOff& rests) {
     int steps = 0;
     while (rests.waits())
         ++steps;
@@ -17,7 +17,7 @@ int steps_without(BackOff& rests) {
 } // namespace
 
 TEST_CASE("What never pays is tried again after 32 steps, 64, and so on, and after 512 from then on") {
-    BackOff rests;
+    sim::BackOff rests;
     REQUIRE_FALSE(rests.waits());
     for (const int steps : {32, 64, 128, 256, 512, 512, 512}) {
         rests.leave();

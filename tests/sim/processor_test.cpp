@@ -11,7 +11,7 @@
 #include <sched.h>
 #endif
 
-using namespace clothlab::sim;
+using namespace clothlab;
 
 namespace {
 
@@ -33,30 +33,30 @@ TEST_CASE("A thread that leaves its processor is on another one, and may use all
     constexpr int attempts = 100;
     int elsewhere = 0; // the scheduler may move the thread at any time, back too
     for (int n = 0; n < attempts; ++n) {
-        const int before = current_processor();
-        leave_processor(before);
-        elsewhere += current_processor() != before ? 1 : 0;
+        const int before = sim::current_processor();
+        sim::leave_processor(before);
+        elsewhere += sim::current_processor() != before ? 1 : 0;
     }
     REQUIRE(elsewhere > attempts / 2);
     REQUIRE(usable_processors() == usable);
-    leave_processor(-1);
-    leave_processor(1 << 20); // no such processor: nothing happens
+    sim::leave_processor(-1);
+    sim::leave_processor(1 << 20); // no such processor: nothing happens
     REQUIRE(usable_processors() == usable);
 }
 
 TEST_CASE("Threads that are woken up work beside the one that woke them, not on its processor", "[threads]") {
     if (usable_processors() < 2)
         SKIP("there is no other processor");
-    ThreadPool pool(2);
+    sim::ThreadPool pool(2);
     constexpr int attempts = 100;
     int beside = 0;
     for (int n = 0; n < attempts; ++n) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2)); // the other thread sleeps meanwhile
-        const int callers = current_processor();
+        const int callers = sim::current_processor();
         int workers = -1;
         const auto task = [&workers](int index) {
             if (index == 1)
-                workers = current_processor();
+                workers = sim::current_processor();
         };
         pool.run(2, task);
         beside += workers != callers ? 1 : 0;
@@ -67,7 +67,7 @@ TEST_CASE("Threads that are woken up work beside the one that woke them, not on 
 TEST_CASE("A thread that waited for another one and slept goes on beside it, not on its processor", "[threads]") {
     if (usable_processors() < 2)
         SKIP("there is no other processor");
-    ThreadPool pool(2);
+    sim::ThreadPool pool(2);
     constexpr int attempts = 100;
     int beside = 0;
     for (int n = 0; n < attempts; ++n) {
@@ -78,10 +78,10 @@ TEST_CASE("A thread that waited for another one and slept goes on beside it, not
             const auto start = std::chrono::steady_clock::now();
             while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(1)) {
             }
-            workers = current_processor();
+            workers = sim::current_processor();
         };
         pool.run(2, task);
-        beside += workers != current_processor() ? 1 : 0;
+        beside += workers != sim::current_processor() ? 1 : 0;
     }
     REQUIRE(beside > attempts * 3 / 4);
 }
